@@ -1,0 +1,32 @@
+# Libraries from the system. CGAL is optional because its triangulations are GPL.
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(muparser REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+
+find_path(VOROPP_INCLUDE_DIR voro++/voro++.hh REQUIRED)
+find_library(VOROPP_LIBRARY voro++ REQUIRED)
+add_library(voropp::voropp UNKNOWN IMPORTED)
+set_target_properties(voropp::voropp PROPERTIES IMPORTED_LOCATION ${VOROPP_LIBRARY}
+                      INTERFACE_INCLUDE_DIRECTORIES ${VOROPP_INCLUDE_DIR})
+
+set(TESSERA_HAS_CGAL OFF)
+if(NOT TESSERA_WITH_CGAL STREQUAL "OFF")
+  find_package(CGAL CONFIG QUIET)
+  if(CGAL_FOUND)
+    set(TESSERA_HAS_CGAL ON)
+  elseif(TESSERA_WITH_CGAL STREQUAL "ON")
+    message(FATAL_ERROR "TESSERA_WITH_CGAL is ON, but CGAL was not found (Debian: libcgal-dev)")
+  endif()
+endif()
+message(STATUS "Delaunay tetrahedra by CGAL: ${TESSERA_HAS_CGAL}")
+
+if(TESSERA_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <variant>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera {
+
+/// dt = safety min(L) / c_p over all bonds.
+struct AutoStep {};
+
+/// dt = safety 2 / omega_max, omega_max from the linearised forces, estimated again as the body deforms.
+struct AutoSpectralStep {};
+
+/// A step given by the user [s]; refused above the spectral limit unless `force`.
+struct FixedStep {
+  double dt = 0.0;
+  bool force = false;
+};
+
+/// The [time] table.
+struct TimeSpec {
+  double end = 0.0;  // [s]; 0 evaluates the forces of the initial state once
+  std::variant<AutoStep, AutoSpectralStep, FixedStep> step;
+  double safety = 0.3;
+  double damping = 0.0;  // mass-proportional [1/s]
+  Origin origin;         // of the step key (or of the table)
+};
+
+}  // namespace tessera

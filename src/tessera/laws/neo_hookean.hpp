@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+
+#include "tessera/base/mat3.hpp"
+
+namespace tessera {
+
+/// Compressible neo-Hookean solid, [D 51-54], [V 48].
+struct NeoHookean {
+  double lambda = 0.0;  // first Lame parameter [Pa]
+  double mu = 0.0;      // shear modulus [Pa]
+
+  /// [D 54]
+  static constexpr NeoHookean from_young_poisson(double young, double poisson) {
+    return {poisson * young / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson))};
+  }
+
+  /// Strain energy per reference volume [J/m3], [D 51]. Needs det F > 0.
+  double energy(const Mat3& F) const {
+    const double ln_J = std::log(determinant(F));
+    return 0.5 * lambda * ln_J * ln_J - mu * ln_J + 0.5 * mu * (contract(F, F) - 3.0);
+  }
+
+  /// First Piola-Kirchhoff stress dU/dF [Pa], [D 53]. Needs det F > 0.
+  Mat3 stress(const Mat3& F) const {
+    const double J = determinant(F);
+    return ((lambda * std::log(J) - mu) / J) * cofactor(F) + mu * F;
+  }
+
+  /// Plane-wave modulus lambda + 2 mu [Pa]; rho c_p^2 in [D 55].
+  constexpr double plane_wave_modulus() const { return lambda + 2.0 * mu; }
+};
+
+}  // namespace tessera

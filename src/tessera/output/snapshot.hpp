@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tessera/base/index.hpp"
+#include "tessera/base/mat3.hpp"
+
+namespace tessera {
+
+/// The state of all particles at one time, in the order in which the user gave or generated the particles
+/// (not the order in memory). Velocities belong to the same time as positions.
+struct Snapshot {
+  double time = 0.0;      // [s]
+  std::int64_t step = 0;  // steps done
+
+  std::vector<Index> body;      // number of the body
+  std::vector<Index> material;  // number of the material
+  std::vector<Vec3> reference_position;       // X_a [m]
+  std::vector<Vec3> position;                 // x_a [m]
+  std::vector<Vec3> velocity;                 // [m/s]
+  std::vector<Vec3> force;                    // total: internal + contact + external + reactions [N]
+  std::vector<Vec3> internal_force;           // from P, [D 45], reactions of boundary faces included [N]
+  std::vector<Vec3> contact_force;            // from the bonds, [D 50] [N]
+  std::vector<Vec3> external_force;           // tractions, gravity and damping [N]
+  std::vector<Mat3> deformation_gradient;     // F_a [-]
+  std::vector<Mat3> first_piola_kirchhoff;    // P_a, viscous part included [Pa]
+  std::vector<double> volume;                 // V_a, reference [m3]
+  std::vector<double> mass;                   // [kg]
+  std::vector<double> energy_density;         // U(F_a) [J/m3]
+};
+
+/// The energies of a system at one time [J].
+struct EnergyLedger {
+  double kinetic = 0.0;
+  double internal = 0.0;
+  double contact = 0.0;
+  double external_work = 0.0;  // of tractions, gravity and prescribed motion, since the start
+  double dissipated = 0.0;     // by viscosity and damping, since the start
+  double initial = 0.0;        // kinetic + internal + contact at the start
+  double scale = 0.0;          // largest energy seen so far, the measure for the relative error
+
+  double error() const { return kinetic + internal + contact + dissipated - external_work - initial; }
+  double relative_error() const { return scale > 0.0 ? error() / scale : 0.0; }
+};
+
+struct Momentum {
+  Vec3 linear;   // [kg m/s]
+  Vec3 angular;  // about the origin [kg m2/s]
+};
+
+}  // namespace tessera

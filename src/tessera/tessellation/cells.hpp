@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tessera/base/index.hpp"
+#include "tessera/base/vec3.hpp"
+#include "tessera/geometry/solid.hpp"
+
+namespace tessera {
+
+/// The face between the cells of particles a < b. `area` points from a to b [m2].
+struct InteriorFace {
+  Index a = 0;
+  Index b = 0;
+  Vec3 area;
+  Vec3 centroid;
+};
+
+/// The part of a cell's surface that lies on one side of the solid. `area` points out of the solid [m2].
+struct BoundaryFace {
+  Index owner = 0;
+  Index side = 0;  // index into Solid::sides
+  Vec3 area;
+  Vec3 centroid;
+};
+
+/// Voronoi cells cut by a solid. Each face is computed once, so both cells see the same numbers.
+struct Cells {
+  std::vector<double> volume;          // [m3]
+  std::vector<Vec3> centroid;          // [m]
+  std::vector<InteriorFace> interior;  // sorted by (a, b); pieces between one pair are merged
+  std::vector<BoundaryFace> boundary;  // sorted by (owner, side); pieces on one side are merged
+};
+
+/// The Voronoi cells of `points` in `solid`. Throws GeometryError when a cell is empty or does not close.
+Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid);
+
+/// One convex part of a cell, for pictures. Faces list vertices counter-clockwise seen from outside.
+struct Polyhedron {
+  Index particle = 0;
+  std::vector<Vec3> vertices;
+  std::vector<std::vector<Index>> faces;
+};
+
+/// The cells as polyhedra, ordered by particle; a cell that the solid cuts into several pieces gives several.
+std::vector<Polyhedron> voronoi_polyhedra(std::span<const Vec3> points, const Solid& solid);
+
+}  // namespace tessera
