@@ -21,9 +21,9 @@ struct BoundaryTriangle {
 /// Conforming tetrahedra with positive volumes that fill a body; particles are the vertices.
 struct TetrahedralMesh {
   std::vector<Vec3> points;
-  std::vector<std::array<Index, 4>> tetrahedra;  // sorted; det(X1-X0, X2-X0, X3-X0) > 0
-  std::vector<BoundaryTriangle> boundary;        // sorted by vertices
-  std::vector<std::string> side_names;
+  std::vector<std::array<Index, 4>> tetrahedra;      // sorted; det(X1-X0, X2-X0, X3-X0) > 0
+  std::vector<BoundaryTriangle> boundary;            // sorted by vertices
+  std::vector<std::vector<std::string>> side_names;  // a side may have several names
 };
 
 /// How tetrahedra are made from points: by CGAL, by splitting the lattice's cells, or by CGAL where it is built in.
@@ -39,7 +39,8 @@ TetrahedralMesh tetrahedralize(const PointSet& points, const Solid& solid, Tetra
 
 /// Reads a Gmsh .msh (2.2 and 4.1, ASCII and binary) or VTK .vtu (ASCII, base64, appended; zlib) file.
 /// Surfaces that the file names (physical groups; in .vtu none) become sides. Throws GeometryError with file and
-/// line or offset for unreadable, truncated or unsupported files, inverted or flat elements, isolated or doubled vertices.
+/// line or offset for unreadable, truncated or unsupported files, inverted or flat elements, isolated or doubled
+/// vertices.
 TetrahedralMesh read_mesh(const std::string& path);
 
 }  // namespace tessera
