@@ -18,9 +18,10 @@ struct Plane {
   double height(const Vec3& X) const { return dot(normal, X) - offset; }
 };
 
-/// A flat part of a solid's boundary that users may name. Several sides may lie in one plane.
+/// A flat part of a solid's boundary that users may name. Several sides may lie in one plane, and several sides may
+/// share a name.
 struct Side {
-  std::string name;
+  std::vector<std::string> names;  // at least one, the plainest first
   Plane plane;
 };
 
@@ -37,11 +38,13 @@ struct ConvexPiece {
 
 /// A solid as disjoint convex pieces that together fill it.
 ///
-///      +----+               side names of an extruded polygon: "edge1", "edge2", ... in the order of
-///      | 2  |               its points, "-z" (base) and "+z" (top); of a box: "-x" ... "+z"; of a
-///      +----+-------+       union or difference: the names of its parts' sides that remain, and the
-///      |     1      |       outermost flat faces as "-x" ... "+z"
-///      +------------+
+///      +----+               How the flat faces of a solid are called:
+///      | 2  |               - the outermost ones of the whole body, seen along an axis: "-x" ... "+z";
+///      +----+-------+       - of an extruded polygon: "edge1", "edge2", ... in the order of its points, "-z", "+z";
+///      |     1      |       - of a part that has a NAME: "NAME.-x" ... "NAME.+z" for its own outermost faces
+///      +------------+         (of a part taken away: the faces that it leaves), "NAME.edge1" ...;
+///                           - what is nameless by now: "part2.+x", by the place of the part in its union or
+///                             difference ("part1.part2.+x" when nested).
 struct Solid {
   std::vector<ConvexPiece> pieces;
   std::vector<Side> sides;
@@ -51,6 +54,9 @@ struct Solid {
   /// Is X inside or within `tolerance` [m] of the boundary?
   bool contains(const Vec3& X, double tolerance) const;
 };
+
+/// Every name that a side of the solid bears, sorted, each once.
+std::vector<std::string> side_names(const Solid& solid);
 
 /// Builds the solid of a shape. Throws InputError at the shape's origin for empty boxes, polygons that cross
 /// themselves, differences that leave nothing, and unions or differences of anything but boxes.
