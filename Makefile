@@ -1,0 +1,39 @@
+# Tessera in two commands: `make demo` and `make test`. A thin layer over the CMake presets.
+#   make build [PRESET=release]   configure and build (minimal: without the GPL component CGAL)
+#   make demo                     set up, build, run the punch example, say what to open
+#   make test                     set up, build, run all tests, then the same for the preset minimal
+#   make check                    warnings as errors, unit tests with assertions, lint
+#   make format                   clang-format in place
+#   make clean                    remove everything that was built, and the demo's result
+PRESET ?= release
+JOBS ?= $(shell nproc)
+export JOBS
+
+.PHONY: build setup demo test check format clean
+.DEFAULT_GOAL := build
+
+build:
+	cmake --preset $(PRESET)
+	cmake --build --preset $(PRESET) --parallel $(JOBS)
+
+setup:
+	scripts/setup.sh
+
+demo: setup
+	$(MAKE) --no-print-directory build PRESET=release
+	scripts/demo.sh build/release/bin/tessera
+
+test:
+	scripts/setup.sh --test
+	scripts/test.sh release minimal
+
+check:
+	$(MAKE) --no-print-directory build PRESET=dev
+	ctest --preset dev -L 'unit|house'
+	scripts/lint.sh build/dev
+
+format:
+	scripts/format.sh
+
+clean:
+	rm -rf build demo.out
