@@ -1,0 +1,112 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tessera/base/csr.hpp"
+#include "tessera/base/index.hpp"
+#include "tessera/base/mat3.hpp"
+
+namespace tessera {
+
+/// Directed bonds a -> b in compressed rows: row a lists the neighbours b in ascending order. The pattern is
+/// symmetric: a is in row b whenever b is in row a.
+struct Bonds {
+  std::vector<Offset> offset{0};
+  std::vector<Index> neighbour;
+  std::vector<Vec3> B_ab;                // gradient vector: dF_a / dx_b = B_ab / V_a [m2]
+  std::vector<Vec3> B_ba;                // the neighbour's gradient vector towards a [m2]
+  std::vector<Vec3> X_ab;                // branch vector X_b - X_a [m]
+  std::vector<double> area_over_length;  // A_ab / L_ab of the bond stiffness [D 60], [V 50]; 0: no common face [m]
+
+  Index rows() const { return static_cast<Index>(offset.size()) - 1; }
+  Offset begin(Index a) const { return offset[static_cast<std::size_t>(a)]; }
+  Offset end(Index a) const { return offset[static_cast<std::size_t>(a) + 1]; }
+  Offset size() const { return static_cast<Offset>(neighbour.size()); }
+  /// Position of the bond a -> b, or -1.
+  Offset find(Index a, Index b) const;
+};
+
+/// A point on the boundary whose motion is prescribed, wholly or in part: the position c_f of a constrained face
+/// (consistent) or the ghost of its cell (variational, quasi-static).
+///
+///     x_f = wall_share D W_f(t) + sum_k (constrained_k D + free_k (I - D)) x_k        k: closure row
+struct BoundaryNode {
+  Index owner = 0;
+  Index site = 0;            // the boundary face, index into Discretization::sites
+  Vec3 X;                    // reference position of the node [m]
+  Vec3 wall;                 // reference position W_f of the prescribed point [m]
+  Vec3 N;                    // outward unit normal of the face
+  Vec3 area;                 // outward area vector of the face [m2]
+  Mat3 D;                    // projection onto the constrained directions, [V 14]
+  double wall_share = 1.0;   // 1: node on the wall; 2: ghost behind it
+  Vec3 B_af;                 // the owner's gradient vector towards the node [m2]
+  double area_over_length;   // of the boundary bond's stiffness [m]
+};
+
+/// One term of a boundary node's closure; `node` below the number of particles is a particle, else a boundary node.
+struct ClosureTerm {
+  Index node = 0;
+  double constrained = 0.0;  // factor of D x_k
+  double free = 0.0;         // factor of (I - D) x_k
+};
+
+/// A place on the boundary where a traction may act: a Voronoi face, or one vertex of a boundary triangle.
+struct BoundarySite {
+  Vec3 X;         // where the traction is evaluated [m]
+  Vec3 N;         // outward unit normal
+  Vec3 centroid;  // of the face or triangle, where selections are evaluated [m]
+  Index side = -1;
+  Index owner = 0;  // Voronoi: particle whose cell this is; Delaunay: the vertex
+};
+
+/// Area [m2] through which a site's traction acts on a particle.
+struct LoadShare {
+  Index particle = 0;
+  double area = 0.0;
+};
+
+/// A particle with prescribed motion (delaunay): x_a = D x_bar(t) + (I - D) x_a.
+struct ParticleConstraint {
+  Index particle = 0;
+  Mat3 D;
+};
+
+/// Rows of the internal force when it is not the gradient of an energy ([V 42], quasi-static).
+struct DirectForce {
+  std::vector<Vec3> B_ba;  // per bond [m2]
+  std::vector<Vec3> B_aa;  // per particle [m2]
+};
+
+/// What every formulation becomes: particles, bonds, boundary nodes with their closure, and load shares.
+///
+///     F_a = (1/V_a) [ sum_b x_ab (x) B_ab + sum_f (x_f - x_a) (x) B_af ]
+///     f_a = - T_a B_aa - sum_b T_b B_ba   (+ what the boundary nodes hand back through the closure)
+struct Discretization {
+  std::vector<Vec3> X;         // reference positions of the particles [m]
+  std::vector<double> volume;  // [m3]
+  Bonds bonds;
+  std::vector<Vec3> B_aa;              // - sum_b B_ab - sum_f B_af [m2]
+  std::vector<BoundaryNode> nodes;     // sorted by owner; within one, fully prescribed nodes first
+  Csr<ClosureTerm> closure;            // one row per boundary node
+  std::optional<DirectForce> direct;   // set for quasi-static only
+  std::vector<BoundarySite> sites;
+  Csr<LoadShare> load;                 // one row per site
+  std::vector<ParticleConstraint> constraints;  // sorted by particle
+  double body_volume = 0.0;            // of the solid, for the identity sum V_a = V [m3]
+
+  Index particles() const { return static_cast<Index>(X.size()); }
+};
+
+/// Appends the particles, bonds and nodes of another body, moving its indices up.
+void append(Discretization& all, Discretization body);
+
+/// The shortest bond between particles with a common face or between a particle and its ghost [m].
+double shortest_length(const Discretization& d);
+
+/// The shortest bond of each particle [m], the length h of the artificial viscosity [D 61]; for a particle without
+/// bonds the cube root of its volume.
+std::vector<double> shortest_bonds(const Discretization& d);
+
+}  // namespace tessera

@@ -1,0 +1,121 @@
+#include "tessera/discretization/rows.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace tessera {
+
+Offset Bonds::find(Index a, Index b) const {
+  const auto first = neighbour.begin() + begin(a);
+  const auto last = neighbour.begin() + end(a);
+  const auto it = std::lower_bound(first, last, b);
+  return it != last && *it == b ? it - neighbour.begin() : -1;
+}
+
+void complete_bonds(Bonds& bonds, const std::vector<Vec3>& X) {
+  const auto n = static_cast<std::size_t>(bonds.size());
+  bonds.X_ab.resize(n);
+  bonds.B_ba.resize(n);
+  for (Index a = 0; a < bonds.rows(); ++a) {
+    for (Offset i = bonds.begin(a); i < bonds.end(a); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Index b = bonds.neighbour[k];
+      bonds.X_ab[k] = X[static_cast<std::size_t>(b)] - X[static_cast<std::size_t>(a)];
+      bonds.B_ba[k] = bonds.B_ab[static_cast<std::size_t>(bonds.find(b, a))];
+    }
+  }
+}
+
+std::vector<Vec3> diagonal_vectors(const Discretization& d) {
+  std::vector<Vec3> B_aa(d.X.size());
+  for (Index a = 0; a < d.particles(); ++a)
+    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i)
+      B_aa[static_cast<std::size_t>(a)] -= d.bonds.B_ab[static_cast<std::size_t>(i)];
+  for (const BoundaryNode& f : d.nodes) B_aa[static_cast<std::size_t>(f.owner)] -= f.B_af;
+  return B_aa;
+}
+
+bool is_zero(const Mat3& D) { return contract(D, D) < 1e-24; }
+
+bool is_identity(const Mat3& D) {
+  const Mat3 rest = identity() - D;
+  return contract(rest, rest) < 1e-24;
+}
+
+namespace {
+
+template <class T>
+void move_to_end(std::vector<T>& all, std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+template <class T>
+void append_rows(Csr<T>& all, const Csr<T>& more) {
+  const Offset base = all.offset.back();
+  for (std::size_t r = 1; r < more.offset.size(); ++r) all.offset.push_back(base + more.offset[r]);
+  all.value.insert(all.value.end(), more.value.begin(), more.value.end());
+}
+
+void append_bonds(Bonds& all, Bonds& more, Index shift) {
+  const Offset base = all.offset.back();
+  for (std::size_t r = 1; r < more.offset.size(); ++r) all.offset.push_back(base + more.offset[r]);
+  for (Index b : more.neighbour) all.neighbour.push_back(b + shift);
+  move_to_end(all.B_ab, more.B_ab);
+  move_to_end(all.B_ba, more.B_ba);
+  move_to_end(all.X_ab, more.X_ab);
+  move_to_end(all.area_over_length, more.area_over_length);
+}
+
+}  // namespace
+
+void append(Discretization& all, Discretization body) {
+  const Index particles = all.particles(), sites = static_cast<Index>(all.sites.size());
+  const Index nodes = static_cast<Index>(all.nodes.size());
+  // Boundary nodes are numbered after all particles, so both ranges of a closure row move.
+  for (ClosureTerm& t : all.closure.value)
+    if (t.node >= particles) t.node += body.particles();
+  for (ClosureTerm& t : body.closure.value) t.node += t.node >= body.particles() ? particles + nodes : particles;
+  for (BoundaryNode& f : body.nodes) f.owner += particles, f.site += sites;
+  for (BoundarySite& s : body.sites) s.owner += particles;
+  for (LoadShare& l : body.load.value) l.particle += particles;
+  for (ParticleConstraint& c : body.constraints) c.particle += particles;
+
+  move_to_end(all.X, body.X);
+  move_to_end(all.volume, body.volume);
+  move_to_end(all.B_aa, body.B_aa);
+  append_bonds(all.bonds, body.bonds, particles);
+  move_to_end(all.nodes, body.nodes);
+  append_rows(all.closure, body.closure);
+  move_to_end(all.sites, body.sites);
+  append_rows(all.load, body.load);
+  move_to_end(all.constraints, body.constraints);
+  if (body.direct) {
+    if (!all.direct) all.direct.emplace();
+    move_to_end(all.direct->B_ba, body.direct->B_ba);
+    move_to_end(all.direct->B_aa, body.direct->B_aa);
+  }
+  all.body_volume += body.body_volume;
+}
+
+std::vector<double> shortest_bonds(const Discretization& d) {
+  std::vector<double> h(d.X.size(), std::numeric_limits<double>::infinity());
+  for (Index a = 0; a < d.particles(); ++a)
+    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (d.bonds.area_over_length[k] > 0.0)
+        h[static_cast<std::size_t>(a)] = std::min(h[static_cast<std::size_t>(a)], norm(d.bonds.X_ab[k]));
+    }
+  for (std::size_t a = 0; a < h.size(); ++a)  // a body of one particle has no bond
+    if (!std::isfinite(h[a])) h[a] = std::cbrt(d.volume[a]);
+  return h;
+}
+
+double shortest_length(const Discretization& d) {
+  double L = std::numeric_limits<double>::infinity();
+  for (double h : shortest_bonds(d)) L = std::min(L, h);
+  for (const BoundaryNode& f : d.nodes)
+    if (f.wall_share == 2.0) L = std::min(L, norm(f.X - d.X[static_cast<std::size_t>(f.owner)]));
+  return L;
+}
+
+}  // namespace tessera

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tessera/discretization/discretization.hpp"
+#include "tessera/tessellation/cells.hpp"
+
+namespace tessera {
+
+/// A cell's face as its particle sees it: the neighbour and the face's number.
+struct FaceOfCell {
+  Index neighbour = 0;  // -1 on the boundary
+  Index face = 0;       // index into Cells::interior or Cells::boundary
+};
+
+/// The faces of every cell: interior ones by ascending neighbour, then boundary ones by ascending side.
+Csr<FaceOfCell> faces_of_cells(const Cells& cells);
+
+/// Fills what all Voronoi formulations share: positions, volumes and one site per boundary face.
+void describe_particles(Discretization& d, std::span<const Vec3> X, const Cells& cells);
+
+}  // namespace tessera
