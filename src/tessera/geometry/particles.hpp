@@ -42,10 +42,10 @@ enum class Placement { cell_centres, vertices };
 
 /// The lattice behind a set of points, kept because the split lattice needs it.
 struct Lattice {
-  std::array<Index, 3> nodes{};   // points per direction, occupied or not
-  Vec3 origin;                    // position of node (0,0,0) [m]
-  Vec3 spacing;                   // [m]
-  std::vector<Index> particle;    // particle of node i + nx (j + ny k), or -1 where the lattice has none
+  std::array<Index, 3> nodes{};  // points per direction, occupied or not
+  Vec3 origin;                   // position of node (0,0,0) [m]
+  Vec3 spacing;                  // [m]
+  std::vector<Index> particle;   // particle of node i + nx (j + ny k), or -1 where the lattice has none
 };
 
 struct PointSet {

@@ -18,8 +18,8 @@ struct SelectionSpec {
 
 /// A place that a selection may take: the centroid of a boundary face, or a particle.
 struct Site {
-  Vec3 X;                               // material position [m]
-  std::span<const std::string> names;   // of the sides or surfaces that it belongs to
+  Vec3 X;                              // material position [m]
+  std::span<const std::string> names;  // of the sides or surfaces that it belongs to
 };
 
 /// A selection compiled for one body. An item that equals one of `known_names` is a name; anything else is a formula

@@ -1,0 +1,105 @@
+#include "tessera/geometry/point_file.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+namespace tessera {
+namespace {
+
+struct Field {
+  std::string_view text;
+  int column = 1;  // of its first character, counted from one
+};
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return text.substr(text.size());
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<Field> split(std::string_view line) {
+  std::vector<Field> fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::string_view text = trimmed(line.substr(begin, end - begin));
+    fields.push_back({text, static_cast<int>(text.data() - line.data()) + 1});
+    begin = end + 1;
+  }
+  return fields;
+}
+
+class Reader {
+ public:
+  Reader(const PointFileSpec& spec, const Origin& origin) : path_(spec.path), file_(spec.path) {
+    if (!file_) throw InputError(origin, fmt::format("cannot read the point file '{}'", path_));
+  }
+
+  FilePoints read() {
+    while (std::getline(file_, line_)) {
+      ++number_;
+      if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // byte order mark
+      if (trimmed(line_).empty()) continue;
+      has_header_ ? read_point() : read_header();
+    }
+    if (file_.bad()) fail(1, "the file could not be read to its end");
+    if (!has_header_) fail(1, "the file is empty; its first line must be the header x,y,z");
+    if (result_.points.empty()) fail(1, "the file holds no points, only a header");
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void fail(int column, const std::string& message) const {
+    throw InputError({path_, number_ == 0 ? 1 : number_, column, ""}, message);
+  }
+
+  void read_header() {
+    for (const Field& field : split(line_)) {
+      const std::size_t d = std::string_view("xyz").find(field.text);
+      if (field.text.size() != 1 || d == std::string_view::npos)
+        fail(field.column,
+             fmt::format("unknown column '{}'; the header must be x,y,z (in any order, nothing else)", field.text));
+      for (const int known : component_)
+        if (known == static_cast<int>(d)) fail(field.column, fmt::format("column '{}' appears twice", field.text));
+      component_.push_back(static_cast<int>(d));
+    }
+    if (component_.size() != 3) fail(1, "the header must name the three columns x,y,z");
+    has_header_ = true;
+  }
+
+  void read_point() {
+    const std::vector<Field> fields = split(line_);
+    if (fields.size() != 3) fail(1, fmt::format("found {} fields, expected 3", fields.size()));
+    Vec3 X;
+    for (std::size_t i = 0; i < 3; ++i) X[component_[i]] = number(fields[i]);
+    result_.points.push_back(X);
+    result_.lines.push_back(number_);
+  }
+
+  double number(const Field& field) const {
+    double value = 0.0;
+    const std::string_view digits = field.text.starts_with('+') ? field.text.substr(1) : field.text;
+    const char* end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, value);
+    if (error != std::errc() || stop != end || !std::isfinite(value))
+      fail(field.column, fmt::format("'{}' is not a finite number (coordinates are in metres)", field.text));
+    return value;
+  }
+
+  std::string path_;
+  std::ifstream file_;
+  std::string line_;
+  int number_ = 0;
+  bool has_header_ = false;
+  std::vector<int> component_;  // of each column: 0, 1, 2 for x, y, z
+  FilePoints result_;
+};
+
+}  // namespace
+
+FilePoints read_points(const PointFileSpec& spec, const Origin& origin) { return Reader(spec, origin).read(); }
+
+}  // namespace tessera

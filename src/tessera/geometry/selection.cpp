@@ -1,0 +1,183 @@
+#include "tessera/geometry/selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "tessera/base/formula.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr double kOnSide = 1e-9;  // of the body's size: how far x == min|max reaches
+
+/// "x == min" and its like, as six bits: x min, x max, y min, ... z max.
+using Extremes = unsigned;
+
+bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+/// Could `item` be a misspelt side or surface ("-x", "top", "part1.+y") rather than a formula?
+bool looks_like_name(const std::string& item) {
+  const std::size_t first = item.find_first_not_of("+-");
+  if (first > 1 || first == std::string::npos || !is_name_character(item[first]) || std::isdigit(item[first]))
+    return false;
+  return std::all_of(item.begin() + static_cast<std::ptrdiff_t>(first), item.end(),
+                     [](char c) { return is_name_character(c) || c == '.' || c == '-' || c == '+'; });
+}
+
+/// Number of single-character changes that turn a into b.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+[[noreturn]] void refuse_name(const std::string& item, std::span<const std::string> known, const Origin& origin) {
+  if (known.empty())
+    throw InputError(origin,
+                     fmt::format("'{}' is no name: this body has no named sides; use a formula in X, Y, Z", item));
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+    return edit_distance(item, a) < edit_distance(item, b);
+  });
+  throw InputError(origin, fmt::format("unknown side or surface '{}'; did you mean '{}'? Known are {}", item, *nearest,
+                                       fmt::join(known, ", ")));
+}
+
+/// One stretch of text such as "x == min".
+struct ExtremeTerm {
+  std::size_t begin, length;
+  int bit;
+};
+
+/// Finds an extreme term that begins at `begin`.
+std::optional<ExtremeTerm> extreme_term(const std::string& text, std::size_t begin) {
+  const std::size_t axis = std::string("xyz").find(text[begin]);
+  if (axis == std::string::npos || (begin > 0 && is_name_character(text[begin - 1]))) return std::nullopt;
+  const auto skip_blanks = [&](std::size_t i) { return std::min(text.find_first_not_of(" \t", i), text.size()); };
+  const std::size_t equals = skip_blanks(begin + 1);
+  if (text.compare(equals, 2, "==") != 0) return std::nullopt;
+  const std::size_t word = skip_blanks(equals + 2);
+  const bool is_max = text.compare(word, 3, "max") == 0;
+  if (!is_max && text.compare(word, 3, "min") != 0) return std::nullopt;
+  const std::size_t end = word + 3;
+  if (end < text.size() && (is_name_character(text[end]) || text[skip_blanks(end)] == '(')) return std::nullopt;
+  return ExtremeTerm{begin, end - begin, static_cast<int>(2 * axis) + (is_max ? 1 : 0)};
+}
+
+/// A formula in X, Y, Z in which "x == min" and its like take the place of a number. Such a term is known before the
+/// formula is evaluated, so there is one formula for each set of true terms, in which "1" or "0" and blanks stand for
+/// them: the columns in messages stay those of the user.
+class SiteFormula {
+ public:
+  SiteFormula(std::string text, const Origin& origin) : text_(std::move(text)), origin_(origin) {
+    for (std::size_t i = 0; i < text_.size(); ++i)
+      if (const auto term = extreme_term(text_, i)) {
+        check_stands_alone(*term);
+        terms_.push_back(*term);
+      }
+    if (formula_for(0).depends_on_time())
+      throw InputError(origin_, fmt::format("'{}' depends on t, but what is selected cannot change with time", text_));
+  }
+
+  bool takes(const Vec3& X, Extremes extremes) { return formula_for(extremes)(0.0, X) != 0.0; }
+
+ private:
+  void check_stands_alone(const ExtremeTerm& term) const {
+    const std::size_t before = term.begin == 0 ? std::string::npos : text_.find_last_not_of(" \t", term.begin - 1);
+    const std::size_t after = text_.find_first_not_of(" \t", term.begin + term.length);
+    const bool is_free = (before == std::string::npos || std::string("(&|").find(text_[before]) != std::string::npos) &&
+                         (after == std::string::npos || std::string(")&|").find(text_[after]) != std::string::npos);
+    if (is_free) return;
+    Origin place = origin_;
+    place.column += static_cast<int>(term.begin);
+    throw InputError(place, fmt::format("'{}' can only be combined by && and || and parentheses",
+                                        text_.substr(term.begin, term.length)));
+  }
+
+  Formula& formula_for(Extremes extremes) {
+    Extremes used = 0;
+    for (const ExtremeTerm& term : terms_) used |= 1U << term.bit;
+    const auto [it, is_new] = formulas_.try_emplace(extremes & used);
+    if (is_new) it->second = Formula(with_terms(extremes), origin_);
+    return it->second;
+  }
+
+  std::string with_terms(Extremes extremes) const {
+    std::string text = text_;
+    for (const ExtremeTerm& term : terms_) {
+      text.replace(term.begin, term.length, term.length, ' ');
+      text[term.begin] = (extremes >> term.bit) & 1U ? '1' : '0';
+    }
+    return text;
+  }
+
+  std::string text_;
+  Origin origin_;
+  std::vector<ExtremeTerm> terms_;
+  std::map<Extremes, Formula> formulas_;
+};
+
+}  // namespace
+
+struct Selection::Impl {
+  std::vector<std::string> names;
+  std::vector<SiteFormula> formulas;
+  Vec3 lower, upper;
+  double tolerance = 0.0;
+
+  Extremes extremes_at(const Vec3& X) const {
+    Extremes bits = 0;
+    for (int d = 0; d < 3; ++d) {
+      if (std::abs(X[d] - lower[d]) <= tolerance) bits |= 1U << (2 * d);
+      if (std::abs(X[d] - upper[d]) <= tolerance) bits |= 2U << (2 * d);
+    }
+    return bits;
+  }
+};
+
+Selection::Selection(const SelectionSpec& spec, std::span<const std::string> known_names, const Vec3& lower,
+                     const Vec3& upper)
+    : impl_(std::make_unique<Impl>()) {
+  if (spec.items.empty()) throw InputError(spec.origin, "the selection is empty; give a side, a surface or a formula");
+  impl_->lower = lower;
+  impl_->upper = upper;
+  const Vec3 size = upper - lower;
+  impl_->tolerance = kOnSide * std::max({size.x, size.y, size.z});
+  for (const std::string& item : spec.items) {
+    if (std::find(known_names.begin(), known_names.end(), item) != known_names.end())
+      impl_->names.push_back(item);
+    else if (looks_like_name(item))
+      refuse_name(item, known_names, spec.origin);
+    else
+      impl_->formulas.emplace_back(item, spec.origin);
+  }
+}
+
+Selection::Selection(Selection&&) noexcept = default;
+Selection& Selection::operator=(Selection&&) noexcept = default;
+Selection::~Selection() = default;
+
+bool Selection::takes(const Site& site) const {
+  for (const std::string& name : impl_->names)
+    if (std::find(site.names.begin(), site.names.end(), name) != site.names.end()) return true;
+  const Extremes extremes = impl_->extremes_at(site.X);
+  return std::any_of(impl_->formulas.begin(), impl_->formulas.end(),
+                     [&](SiteFormula& formula) { return formula.takes(site.X, extremes); });
+}
+
+}  // namespace tessera
