@@ -43,10 +43,11 @@ enum class ProbeKind { reaction, point, average, maximum, momentum, energy };
 struct ProbeSpec {
   std::string name;
   ProbeKind kind = ProbeKind::reaction;
-  std::string body;                   // empty: the only body
-  std::optional<SelectionSpec> where; // reaction: boundary faces or particles; average, maximum: particles (unset: all)
-  std::optional<Vec3> at;             // point: material position [m]
-  std::string quantity;               // average, maximum: a name of the quantity table
+  std::string body;  // empty: the only body
+  std::optional<SelectionSpec>
+      where;               // reaction: boundary faces or particles; average, maximum: particles (unset: all)
+  std::optional<Vec3> at;  // point: material position [m]
+  std::string quantity;    // average, maximum: a name of the quantity table
   Origin origin;
 };
 

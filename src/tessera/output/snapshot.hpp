@@ -15,20 +15,20 @@ struct Snapshot {
   double time = 0.0;      // [s]
   std::int64_t step = 0;  // steps done
 
-  std::vector<Index> body;      // number of the body
-  std::vector<Index> material;  // number of the material
-  std::vector<Vec3> reference_position;       // X_a [m]
-  std::vector<Vec3> position;                 // x_a [m]
-  std::vector<Vec3> velocity;                 // [m/s]
-  std::vector<Vec3> force;                    // total: internal + contact + external + reactions [N]
-  std::vector<Vec3> internal_force;           // from P, [D 45], reactions of boundary faces included [N]
-  std::vector<Vec3> contact_force;            // from the bonds, [D 50] [N]
-  std::vector<Vec3> external_force;           // tractions, gravity and damping [N]
-  std::vector<Mat3> deformation_gradient;     // F_a [-]
-  std::vector<Mat3> first_piola_kirchhoff;    // P_a, viscous part included [Pa]
-  std::vector<double> volume;                 // V_a, reference [m3]
-  std::vector<double> mass;                   // [kg]
-  std::vector<double> energy_density;         // U(F_a) [J/m3]
+  std::vector<Index> body;                  // number of the body
+  std::vector<Index> material;              // number of the material
+  std::vector<Vec3> reference_position;     // X_a [m]
+  std::vector<Vec3> position;               // x_a [m]
+  std::vector<Vec3> velocity;               // [m/s]
+  std::vector<Vec3> force;                  // total: internal + contact + external + reactions [N]
+  std::vector<Vec3> internal_force;         // from P, [D 45], reactions of boundary faces included [N]
+  std::vector<Vec3> contact_force;          // from the bonds, [D 50] [N]
+  std::vector<Vec3> external_force;         // tractions, gravity and damping [N]
+  std::vector<Mat3> deformation_gradient;   // F_a [-]
+  std::vector<Mat3> first_piola_kirchhoff;  // P_a, viscous part included [Pa]
+  std::vector<double> volume;               // V_a, reference [m3]
+  std::vector<double> mass;                 // [kg]
+  std::vector<double> energy_density;       // U(F_a) [J/m3]
 };
 
 /// The energies of a system at one time [J].

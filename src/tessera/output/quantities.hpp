@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+#include "tessera/output/snapshot.hpp"
+
+namespace tessera {
+
+/// A named value of a particle that fields and probes can hold.
+struct Quantity {
+  using Scalar = double (*)(const Snapshot&, std::size_t particle);
+  using Integer = Index (*)(const Snapshot&, std::size_t particle);
+  using Vector = Vec3 (*)(const Snapshot&, std::size_t particle);
+  using Tensor = Mat3 (*)(const Snapshot&, std::size_t particle);
+
+  std::string_view name;
+  std::string_view unit;     // "-" for pure numbers
+  std::string_view meaning;  // one sentence
+  std::variant<Scalar, Integer, Vector, Tensor> value;
+
+  /// 1, 3 (x, y, z) or 9 (row by row).
+  int components() const;
+  bool is_integer() const { return std::holds_alternative<Integer>(value); }
+};
+
+/// Every quantity, in the order in which files hold them.
+std::span<const Quantity> quantity_table();
+
+/// The quantity called `name` ("stress" is a second name of cauchy_stress). Throws InputError at `origin` for an
+/// unknown name, with the nearest known one and the list of all.
+const Quantity& find_quantity(std::string_view name, const Origin& origin);
+
+/// What a field file holds: reference_position and `names`, each once, in this order; the default set when
+/// `names` is empty. Throws InputError as find_quantity() does.
+std::vector<const Quantity*> field_quantities(std::span<const std::string> names, const Origin& origin);
+
+/// "_x", "_y", "_z" for vectors, "_xx", "_xy" .. "_zz" for tensors, one empty string for scalars.
+std::span<const std::string_view> component_suffixes(const Quantity& quantity);
+
+/// The components of `quantity` of one particle. `out` has quantity.components() entries.
+void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::size_t particle, double* out);
+
+/// The components of all particles, particle by particle.
+std::vector<double> evaluate(const Quantity& quantity, const Snapshot& snapshot);
+
+/// The Cauchy stress P F^T / J of a particle [Pa].
+Mat3 cauchy_stress(const Snapshot& snapshot, std::size_t particle);
+
+/// The von Mises stress sqrt(3/2 s : s), s the deviator of `stress` [Pa].
+double von_mises(const Mat3& stress);
+
+}  // namespace tessera

@@ -1,0 +1,70 @@
+#include "tessera/output/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tessera/output/output_file.hpp"
+
+namespace tessera {
+
+namespace {
+
+using Json = nlohmann::ordered_json;  // writes numbers that are not finite as null
+
+Json list(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json energy(const EnergyLedger& e) {
+  return {{"kinetic", e.kinetic},       {"internal", e.internal},
+          {"contact", e.contact},       {"external_work", e.external_work},
+          {"dissipated", e.dissipated}, {"relative_error", e.relative_error()}};
+}
+
+Json errors(const std::map<std::string, DisplacementError>& errors) {
+  Json json = Json::object();
+  for (const auto& [name, error] : errors)
+    json[name] = {{"displacement_l2", error.l2},
+                  {"displacement_l2_measure", error.measure == ErrorMeasure::relative ? "relative" : "absolute"},
+                  {"displacement_max", error.max}};
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const Summary& s) {
+  Json json = {{"version", s.version}, {"case", s.case_file}, {"status", s.status}};
+  if (!s.message.empty()) json["message"] = s.message;
+  json["particles"] = s.particles;
+  json["bonds"] = s.bonds;
+  json["boundary_faces"] = s.boundary_faces;
+  json["steps"] = s.steps;
+  json["dt"] = s.dt;
+  json["time"] = s.time;
+  json["wall_seconds"] = {
+      {"setup", s.wall_seconds.setup}, {"steps", s.wall_seconds.steps}, {"output", s.wall_seconds.output}};
+  json["particle_steps_per_second"] = s.particle_steps_per_second;
+  json["peak_memory_bytes"] = s.peak_memory_bytes;
+  json["energy"] = energy(s.energy);
+  json["momentum"] = {{"linear", list(s.momentum.linear)},
+                      {"angular", list(s.momentum.angular)},
+                      {"linear_change", list(s.momentum_change.linear)},
+                      {"angular_change", list(s.momentum_change.angular)}};
+  json["errors"] = errors(s.errors);
+  json["identities"] = Json::object();
+  for (const auto& [name, violation] : s.identities) json["identities"][name] = violation;
+  json["max_force_residual"] = s.max_force_residual;
+  // Names come from users: bytes that are no UTF-8 are replaced, not refused.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::string& path, const Summary& summary) {
+  replace_file(path, to_json(summary), Durability::power);
+}
+
+std::int64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{1024} * usage.ru_maxrss;
+}
+
+}  // namespace tessera
