@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tessera/base/error.hpp"
+#include "tessera/tessellation/delaunay_fill.hpp"
+#include "tessera/tessellation/lattice_split.hpp"
+#include "tessera/tessellation/mesh_boundary.hpp"
+#include "tessera/tessellation/tetrahedra.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr double volume_tolerance = 1e-10;  // of the solid's volume
+constexpr double plane_tolerance = 1e-9;    // of the solid's size
+
+constexpr const char* cure =
+    "particles must lie on every side, edge and corner of the solid, close enough to resolve them (a lattice with "
+    "planes through "
+    "every edge, finer or less jittered), or give a tetrahedral mesh file";
+
+std::string at(const Vec3& X) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", X.x, X.y, X.z); }
+
+std::vector<Tetrahedron> tetrahedra_of(const PointSet& set, const Solid& solid, Tetrahedralization how) {
+  const bool by_delaunay =
+      how == Tetrahedralization::delaunay || (how == Tetrahedralization::automatic && has_delaunay());
+  std::vector<Tetrahedron> tetrahedra = by_delaunay ? delaunay_fill(set.points, solid) : split_lattice(set, solid);
+  std::transform(tetrahedra.begin(), tetrahedra.end(), tetrahedra.begin(),
+                 [](const Tetrahedron& t) { return canonical(t); });
+  std::sort(tetrahedra.begin(), tetrahedra.end());
+  return tetrahedra;
+}
+
+void refuse_left_out_points(const TetrahedralMesh& mesh) {
+  std::vector<char> used(mesh.points.size(), 0);
+  for (const Tetrahedron& t : mesh.tetrahedra)
+    for (const Index v : t) used[static_cast<std::size_t>(v)] = 1;
+  const auto first = std::find(used.begin(), used.end(), 0);
+  if (first == used.end()) return;
+  const auto i = static_cast<std::size_t>(first - used.begin());
+  throw GeometryError(fmt::format("{} of {} particles belong to no tetrahedron, first particle {} at {}: {}",
+                                  std::count(used.begin(), used.end(), 0), used.size(), i, at(mesh.points[i]), cure));
+}
+
+double volume_of(const TetrahedralMesh& mesh) {
+  return std::accumulate(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), 0.0,
+                         [&](double sum, const Tetrahedron& t) { return sum + six_volume(t, mesh.points) / 6.0; });
+}
+
+/// The outer faces with their sides; a face on no side shows where the solid is not filled, or overfilled.
+std::vector<BoundaryTriangle> boundary_of(const TetrahedralMesh& mesh, const Solid& solid) {
+  const double tolerance = plane_tolerance * norm(solid.upper - solid.lower);
+  std::vector<BoundaryTriangle> boundary;
+  for (const Triangle& face : outer_faces(mesh.tetrahedra)) {
+    boundary.push_back({face, side_of(face, mesh.points, solid, tolerance)});
+    if (boundary.back().side >= 0) continue;
+    throw GeometryError(
+        fmt::format("the tetrahedra do not fill the solid (volume {:.12g} of {:.12g} m3): the outer face of particles "
+                    "{} at {} lies on "
+                    "none of its sides; {}",
+                    volume_of(mesh), solid.volume, fmt::join(face, ", "), at(centroid(face, mesh.points)), cure));
+  }
+  return boundary;
+}
+
+void refuse_wrong_volume(const TetrahedralMesh& mesh, const Solid& solid) {
+  const double volume = volume_of(mesh);
+  if (std::abs(volume - solid.volume) <= volume_tolerance * solid.volume) return;
+  throw GeometryError(fmt::format("the tetrahedra fill {:.12g} m3 of the solid's {:.12g} m3 ({:+.3g} m3 too {}): {}",
+                                  volume, solid.volume, volume - solid.volume,
+                                  volume < solid.volume ? "little" : "much", cure));
+}
+
+}  // namespace
+
+TetrahedralMesh tetrahedralize(const PointSet& points, const Solid& solid, Tetrahedralization how) {
+  TetrahedralMesh mesh;
+  mesh.points = points.points;
+  mesh.tetrahedra = tetrahedra_of(points, solid, how);
+  refuse_left_out_points(mesh);
+  mesh.boundary = boundary_of(mesh, solid);
+  refuse_wrong_volume(mesh, solid);
+  for (const Side& side : solid.sides) mesh.side_names.push_back(side.names);
+  return mesh;
+}
+
+}  // namespace tessera
