@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include "tessera/input/build_parts.hpp"
+#include "tessera/input/names.hpp"
+
+namespace tessera::input {
+
+namespace {
+
+Shape build_shape(const Reader& t);
+
+std::vector<Shape> build_shapes(const Reader& t, const std::string& key) {
+  std::vector<Shape> shapes;
+  for (const Reader& part : t.tables(key)) shapes.push_back(build_shape(part));
+  if (shapes.size() < 2)
+    throw InputError(t.origin_of(key), fmt::format("found {} shape; expected at least two", shapes.size()));
+  return shapes;
+}
+
+PolygonShape build_polygon(const Reader& t) {
+  PolygonShape polygon;
+  for (const Value& point : *t.value("points").get_if<Array>()) {
+    const Array& pair = *point.get_if<Array>();
+    polygon.points.push_back({number_of(pair.at(0)), number_of(pair.at(1))});
+  }
+  polygon.base = t.number("base");
+  polygon.thickness = t.number("thickness");
+  return polygon;
+}
+
+Shape build_shape(const Reader& t) {
+  Shape shape;
+  shape.name = t.text_or_empty("name");
+  shape.origin = t.origin();
+  if (t.has("box")) shape.kind = BoxShape{t.table("box").vector("min"), t.table("box").vector("max")};
+  if (t.has("union")) shape.kind = UnionShape{build_shapes(t, "union")};
+  if (t.has("difference")) shape.kind = DifferenceShape{build_shapes(t, "difference")};
+  if (t.has("polygon")) shape.kind = build_polygon(t.table("polygon"));
+  return shape;
+}
+
+LatticeSpec build_lattice(const Reader& t, int dimension) {
+  LatticeSpec lattice;
+  lattice.spacing = t.optional_number("spacing");
+  if (t.has("counts")) {
+    const Vec3 n = t.vector("counts");
+    if (dimension == 2 && n.z != 1.0)
+      throw InputError(t.origin_of("counts"),
+                       fmt::format("found {} in z; expected 1, or two counts, with method.dimension = 2", n.z));
+    lattice.counts = {static_cast<int>(n.x), static_cast<int>(n.y), static_cast<int>(n.z)};
+  }
+  lattice.jitter = t.number("jitter");
+  lattice.seed = static_cast<std::uint64_t>(t.integer("seed"));
+  return lattice;
+}
+
+ParticleSpec build_particles(const Reader& t, const MethodSpec& method) {
+  ParticleSpec particles;
+  particles.origin = t.origin();
+  if (t.has("file")) {
+    particles.source = PointFileSpec{t.text("file")};
+    particles.origin = t.origin_of("file");
+  } else if (t.has("mesh")) {
+    if (method.formulation != Formulation::delaunay)
+      throw InputError(t.origin_of("mesh"),
+                       "a mesh needs method.formulation = \"delaunay\"; voronoi takes a lattice or a file of points");
+    particles.source = MeshFileSpec{t.text("mesh")};
+    particles.origin = t.origin_of("mesh");
+  } else {
+    particles.source = build_lattice(t, method.dimension);
+  }
+  return particles;
+}
+
+}  // namespace
+
+BodySpec build_body(const Reader& t, const std::vector<std::string>& materials, const MethodSpec& method) {
+  BodySpec body;
+  body.name = t.text("name");
+  body.origin = t.origin();
+  if (t.has("shape")) body.shape = build_shape(t.table("shape"));
+  body.particles = build_particles(t.table("particles"), method);
+  if (!body.shape && !std::holds_alternative<MeshFileSpec>(body.particles.source)) {
+    Origin origin = t.origin();
+    origin.key += ".shape";
+    throw InputError(origin, "missing; expected a shape, as in { box = { min = [0, 0, 0], max = [1, 1, 1] } }");
+  }
+  body.material = static_cast<Index>(position_of(t, "material", materials, "material"));
+  return body;
+}
+
+}  // namespace tessera::input

@@ -1,0 +1,54 @@
+#include "tessera/input/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tessera/base/text.hpp"
+
+namespace tessera::input {
+
+namespace {
+
+std::vector<std::string> quoted_all(const std::vector<std::string>& names) {
+  std::vector<std::string> result;
+  for (const std::string& n : names) result.push_back(quoted(n));
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> unique_names(const std::vector<Reader>& tables, const std::string& noun) {
+  std::vector<std::string> names;
+  for (const Reader& table : tables) {
+    const std::string& name = table.text("name");
+    const auto same = std::find(names.begin(), names.end(), name);
+    if (same != names.end())
+      throw InputError(table.origin_of("name"),
+                       fmt::format("found {}, which is already the name of {}.{}; every {} needs "
+                                   "its own",
+                                   quoted(name), noun, same - names.begin(), noun));
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::size_t position_of(const Reader& table, const std::string& key, const std::vector<std::string>& names,
+                        const std::string& noun) {
+  const std::string& name = table.text(key);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw InputError(table.origin_of(key), fmt::format("found {}, no {} of this case{}; known: {}", quoted(name), noun,
+                                                     did_you_mean(name, names), list_of(quoted_all(names), "and")));
+}
+
+std::string body_of(const Reader& table, const std::vector<std::string>& bodies) {
+  if (table.has("body")) return bodies[position_of(table, "body", bodies, "body")];
+  if (bodies.size() <= 1) return {};
+  Origin origin = table.origin();
+  origin.key += ".body";
+  throw InputError(origin,
+                   fmt::format("missing; with several bodies say which one is meant: {}", list_of(quoted_all(bodies))));
+}
+
+}  // namespace tessera::input
