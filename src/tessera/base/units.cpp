@@ -255,7 +255,7 @@ const NamedDimension* find_named(const Dimension& d) {
 
 }  // namespace
 
-QuantityResult read_quantity(std::string_view text) {
+DimensionalResult read_quantity(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(' ');
   if (begin == std::string_view::npos) return {std::nullopt, 0, "it is empty"};
   const std::string_view body = text.substr(0, text.find_last_not_of(' ') + 1);
@@ -267,7 +267,7 @@ QuantityResult read_quantity(std::string_view text) {
     if (begin + length < body.size()) unit = UnitReader(body, begin + length).read();
     const double value = scaled(digits, unit.exponent) * unit.factor;
     if (!std::isfinite(value)) return {std::nullopt, begin, "the number is too large"};
-    return {Quantity{value, unit.dimension}, 0, {}};
+    return {DimensionalValue{value, unit.dimension}, 0, {}};
   } catch (const Fault& fault) {
     return {std::nullopt, fault.position, fault.what};
   }

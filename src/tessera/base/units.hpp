@@ -27,21 +27,21 @@ inline constexpr Dimension pressure{-1, 1, -2};
 }  // namespace dimension
 
 /// A number in SI units together with its dimension.
-struct Quantity {
+struct DimensionalValue {
   double value = 0.0;
   Dimension dimension;
 };
 
 /// What reading a quantity gave: the quantity, or why the text is none.
-struct QuantityResult {
-  std::optional<Quantity> quantity;
+struct DimensionalResult {
+  std::optional<DimensionalValue> quantity;
   std::size_t position = 0;  // of the fault in the text, from zero
   std::string fault;
 };
 
 /// Reads "17 MPa", "0.1 mm/s", "1000 kg/m3", "9.81 m s^-2", "10 1/s", "30 deg" or "5": a number and a product, quotient
 /// or power of units with SI prefixes. A decimal number is scaled in decimal, so "0.1 mm" is the same number as 1e-4.
-QuantityResult read_quantity(std::string_view text);
+DimensionalResult read_quantity(std::string_view text);
 
 /// True for a number that is followed by a letter (or by 1/...), which is never a formula.
 bool looks_like_quantity(std::string_view text);

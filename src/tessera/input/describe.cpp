@@ -127,7 +127,7 @@ std::string describe_input_markdown() {
       "`sin cos tan asin acos atan sinh cosh tanh exp log log10 sqrt abs floor ceil min max pow atan2`, the constant "
       "`pi`,\n"
       "`+ - * / ^`, comparisons, `&&`, `||` and `? :`; their values are in SI units.\n";
-  text += "\n## The file itself\n" + table_head;
+  text += fmt::format("\n## The file itself\n{}", table_head);
   for (const Parameter& p : input::parameters()) text += is_section(p) ? section_markdown(p) : row_markdown(p);
   text +=
       "\n## Quantities\n\nFor `output.fields.quantities` and `probe.quantity`.\n\n| name | unit | meaning "
