@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "tessera/base/text.hpp"
+
 namespace tessera {
 namespace {
 
@@ -15,18 +17,13 @@ struct Field {
   int column = 1;  // of its first character, counted from one
 };
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return text.substr(text.size());
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 std::vector<Field> split(std::string_view line) {
   std::vector<Field> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
     const std::string_view text = trimmed(line.substr(begin, end - begin));
-    fields.push_back({text, static_cast<int>(text.data() - line.data()) + 1});
+    const std::size_t first = text.empty() ? begin : static_cast<std::size_t>(text.data() - line.data());
+    fields.push_back({text, static_cast<int>(first) + 1});
     begin = end + 1;
   }
   return fields;
@@ -42,6 +39,7 @@ class Reader {
     while (std::getline(file_, line_)) {
       ++number_;
       if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // byte order mark
+      if (line_.ends_with('\r')) line_.pop_back();
       if (trimmed(line_).empty()) continue;
       has_header_ ? read_point() : read_header();
     }

@@ -1,16 +1,13 @@
 #include "tessera/geometry/selection.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include "tessera/base/formula.hpp"
+#include "tessera/base/text.hpp"
 
 namespace tessera {
 namespace {
@@ -31,31 +28,11 @@ bool looks_like_name(const std::string& item) {
                      [](char c) { return is_name_character(c) || c == '.' || c == '-' || c == '+'; });
 }
 
-/// Number of single-character changes that turn a into b.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
 [[noreturn]] void refuse_name(const std::string& item, std::span<const std::string> known, const Origin& origin) {
   if (known.empty())
-    throw InputError(origin,
-                     fmt::format("'{}' is no name: this body has no named sides; use a formula in X, Y, Z", item));
-  const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(item, a) < edit_distance(item, b);
-  });
-  throw InputError(origin, fmt::format("unknown side or surface '{}'; did you mean '{}'? Known are {}", item, *nearest,
-                                       fmt::join(known, ", ")));
+    throw InputError(origin, quoted(item) + " is no name: this body has no named sides; use a formula in X, Y, Z");
+  throw InputError(origin, "unknown side or surface " + quoted(item) + did_you_mean(item, known) + "; known are " +
+                               list_of(known, "and"));
 }
 
 /// One stretch of text such as "x == min".
@@ -91,7 +68,7 @@ class SiteFormula {
         terms_.push_back(*term);
       }
     if (formula_for(0).depends_on_time())
-      throw InputError(origin_, fmt::format("'{}' depends on t, but what is selected cannot change with time", text_));
+      throw InputError(origin_, quoted(text_) + " depends on t, but what is selected cannot change with time");
   }
 
   bool takes(const Vec3& X, Extremes extremes) { return formula_for(extremes)(0.0, X) != 0.0; }
@@ -104,9 +81,9 @@ class SiteFormula {
                          (after == std::string::npos || std::string(")&|").find(text_[after]) != std::string::npos);
     if (is_free) return;
     Origin place = origin_;
-    place.column += static_cast<int>(term.begin);
-    throw InputError(place, fmt::format("'{}' can only be combined by && and || and parentheses",
-                                        text_.substr(term.begin, term.length)));
+    if (place.line > 0) place.column += 1 + static_cast<int>(term.begin);  // the column is that of the opening quote
+    throw InputError(
+        place, quoted(text_.substr(term.begin, term.length)) + " can only be combined by && and || and parentheses");
   }
 
   Formula& formula_for(Extremes extremes) {

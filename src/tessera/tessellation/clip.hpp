@@ -1,0 +1,69 @@
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "tessera/base/index.hpp"
+#include "tessera/geometry/solid.hpp"
+
+namespace tessera {
+
+/// A convex polyhedron as faces around vertices. Each face lists its vertices counter-clockwise seen from outside and
+/// carries a tag that says whose plane it lies in.
+struct ConvexPolyhedron {
+  std::vector<Vec3> vertices;   // [m]
+  std::vector<Index> tags;      // one per face
+  std::vector<Index> begin{0};  // where each face's vertices begin in `corners`, and the end
+  std::vector<Index> corners;   // vertices of all faces, one face after the other
+
+  Index faces() const { return static_cast<Index>(tags.size()); }
+  bool is_empty() const { return tags.empty(); }
+  std::span<const Index> face(Index f) const {
+    const auto i = static_cast<std::size_t>(f);
+    return {corners.data() + begin[i], static_cast<std::size_t>(begin[i + 1] - begin[i])};
+  }
+  void clear();
+  /// Ends the face whose vertices were appended to `corners`.
+  void close_face(Index tag);
+};
+
+/// What the tag of a face becomes when it turns out to lie in the cutting plane.
+enum class CoplanarFace { keeps_its_tag, takes_the_cut };
+
+/// Cuts polyhedra by planes, again and again, without allocating each time.
+///
+/// A vertex within `tolerance` of the plane lies on it: it is neither cut off nor moved. So a face that coincides with
+/// the plane is not split into slivers, and cutting from both sides of one plane neither loses nor doubles a face.
+class Clipper {
+ public:
+  explicit Clipper(double tolerance) : tolerance_(tolerance) {}
+
+  /// Keeps what is below `plane`; the new face gets `tag`.
+  void clip(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag, CoplanarFace coplanar);
+
+ private:
+  enum class Place : signed char { below, on, above };
+
+  void locate(const ConvexPolyhedron& polyhedron, const Plane& plane);
+  void retag(ConvexPolyhedron& polyhedron, Index tag) const;
+  void cut_face(const ConvexPolyhedron& polyhedron, Index f);
+  void add_cap(Index tag);
+  void keep_used_vertices();
+  Index vertex_on_edge(const ConvexPolyhedron& polyhedron, Index u, Index v);
+  Place place(Index v) const { return places_[static_cast<std::size_t>(v)]; }
+
+  struct CutEdge {
+    Index u, v, vertex;
+  };
+
+  double tolerance_;
+  std::vector<double> heights_;
+  std::vector<Place> places_;  // of the old vertices, then of the new ones
+  std::vector<CutEdge> cut_edges_;
+  std::vector<std::pair<Index, Index>> rim_;  // edges of the hole that the cut leaves
+  std::vector<Index> new_number_;
+  ConvexPolyhedron result_;
+};
+
+}  // namespace tessera
