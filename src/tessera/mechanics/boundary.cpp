@@ -1,0 +1,97 @@
+#include "tessera/mechanics/boundary.hpp"
+
+#include "tessera/parallel/parallel.hpp"
+
+namespace tessera {
+
+namespace {
+
+/// Calls body(f) for every boundary node, owner by owner.
+template <class Body>
+void for_each_owner(const System& s, Body&& body) {
+  parallel::for_each(static_cast<std::int64_t>(s.owners.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    for (Index f = s.first_node[k]; f < s.first_node[k + 1]; ++f) body(f);
+  });
+}
+
+const BoundaryNode& node(const System& s, Index f) { return s.d.nodes[static_cast<std::size_t>(f)]; }
+const NodeMechanics& mechanics(const System& s, Index f) { return s.nodes[static_cast<std::size_t>(f)]; }
+
+}  // namespace
+
+void fill_boundary_nodes(const System& s, std::span<const Vec3> walls, Double4* x) {
+  // Within an owner fully prescribed nodes come first, so nodes that follow them see their new position.
+  for_each_owner(s, [&](Index f) {
+    Double4 constrained{}, free{};
+    for (const ClosureTerm& t : s.d.closure.row(f)) {
+      constrained += t.constrained * x[t.node];
+      free += t.free * x[t.node];
+    }
+    const BoundaryNode& n = node(s, f);
+    const Vec3 prescribed = n.wall_share * walls[static_cast<std::size_t>(f)] + to_vec3(constrained);
+    const Vec3 follows = to_vec3(free);
+    x[s.particles() + f] = to_kernel(n.D * (prescribed - follows) + follows);
+  });
+}
+
+void add_boundary_strain(const System& s, const Double4* x, Columns* F) {
+  for_each_owner(s, [&](Index f) {
+    const BoundaryNode& n = node(s, f);
+    const double inverse_volume = 1.0 / s.d.volume[static_cast<std::size_t>(n.owner)];
+    add_outer(F[n.owner], x[s.particles() + f] - x[n.owner], inverse_volume * n.B_af);
+  });
+}
+
+double add_boundary_bonds(const System& s, const Double4* x, const Columns* F, Columns* T, Double4* f, Double4* R) {
+  for_each_owner(s, [&](Index g) {
+    const BoundaryNode& n = node(s, g);
+    const NodeMechanics& m = mechanics(s, g);
+    const Vec3 u = to_vec3(x[s.particles() + g] - x[n.owner] - apply(F[n.owner], m.X_af));
+    const Double4 force = to_kernel(m.stiffness * u);
+    add_outer(T[n.owner], force, (-1.0 / s.d.volume[static_cast<std::size_t>(n.owner)]) * m.X_af);
+    f[n.owner] += force;
+    R[g] = -force;
+  });
+  return parallel::sum<double>(s.boundary_nodes(), [&](std::int64_t i) {
+    const auto g = static_cast<Index>(i);
+    const NodeMechanics& m = mechanics(s, g);
+    const Index owner = node(s, g).owner;
+    const Vec3 u = to_vec3(x[s.particles() + g] - x[owner] - apply(F[owner], m.X_af));
+    return 0.5 * dot(u, m.stiffness * u);
+  });
+}
+
+void add_node_forces(const System& s, const Columns* T, Double4* R) {
+  for_each_owner(s, [&](Index f) { R[f] -= apply(T[node(s, f).owner], node(s, f).B_af); });
+}
+
+void drain_boundary_nodes(const System& s, Double4* R, Double4* f, std::span<Vec3> reactions) {
+  const auto received = [&](std::span<const ReturnTerm> terms) {
+    Vec3 sum;
+    for (const ReturnTerm& t : terms) {
+      const Vec3 R_f = to_vec3(R[t.node]);
+      const Vec3 constrained = node(s, t.node).D * R_f;
+      sum += t.constrained * constrained + t.free * (R_f - constrained);
+    }
+    return to_kernel(sum);
+  };
+  for_each_owner(s, [&](Index g) { R[g] += received(s.returned_to_node.row(g)); });
+  parallel::for_each(static_cast<std::int64_t>(s.receivers.size()), [&](std::int64_t i) {
+    f[s.receivers[static_cast<std::size_t>(i)]] += received(s.returned.row(static_cast<Index>(i)));
+  });
+  for_each_owner(s, [&](Index g) {
+    reactions[static_cast<std::size_t>(g)] += node(s, g).wall_share * (node(s, g).D * to_vec3(R[g]));
+  });
+}
+
+void add_direct_reactions(const System& s, const Columns* P, Double4* f, std::span<Vec3> reactions) {
+  for_each_owner(s, [&](Index g) {
+    const BoundaryNode& n = node(s, g);
+    const Vec3 reaction = n.D * to_vec3(apply(P[n.owner], n.area));
+    f[n.owner] += to_kernel(reaction);
+    reactions[static_cast<std::size_t>(g)] -= reaction;
+  });
+}
+
+}  // namespace tessera

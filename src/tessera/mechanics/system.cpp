@@ -1,0 +1,97 @@
+#include "tessera/mechanics/system.hpp"
+
+#include <algorithm>
+
+namespace tessera {
+
+namespace {
+
+std::vector<MaterialRange> material_ranges(const std::vector<Index>& material_of) {
+  std::vector<MaterialRange> ranges;
+  for (Index a = 0; a < static_cast<Index>(material_of.size()); ++a) {
+    const Index m = material_of[static_cast<std::size_t>(a)];
+    if (ranges.empty() || ranges.back().material != m) ranges.push_back({a, a, m});
+    ranges.back().end = a + 1;
+  }
+  return ranges;
+}
+
+/// Boundary bond, [V 30, 49, 50]: normal and tangential are meant with respect to the reference normal.
+NodeMechanics node_mechanics(const BoundaryNode& f, const Vec3& X_a, const Material& m) {
+  const Mat3 NN = outer(f.N, f.N);
+  const double Kn = m.contact.normal * m.young * f.area_over_length;
+  const double Kt = m.contact.tangential * m.shear_modulus() * f.area_over_length;
+  return {f.X - X_a, f.D * (Kn * NN + Kt * (identity() - NN)) * f.D};
+}
+
+void group_owners(System& s) {
+  for (Index f = 0; f < s.boundary_nodes(); ++f) {
+    const Index owner = s.d.nodes[static_cast<std::size_t>(f)].owner;
+    if (s.owners.empty() || s.owners.back() != owner) {
+      s.owners.push_back(owner);
+      s.first_node.push_back(f);
+    }
+  }
+  s.first_node.push_back(s.boundary_nodes());
+}
+
+struct Target {
+  Index node;
+  ReturnTerm term;
+};
+
+void transpose_closure(System& s) {
+  std::vector<Target> to_particles, to_nodes;
+  for (Index f = 0; f < s.boundary_nodes(); ++f)
+    for (const ClosureTerm& t : s.d.closure.row(f)) {
+      const Target target{t.node, {f, t.constrained, t.free}};
+      (t.node < s.particles() ? to_particles : to_nodes).push_back(target);
+    }
+  std::stable_sort(to_particles.begin(), to_particles.end(),
+                   [](const Target& l, const Target& r) { return l.node < r.node; });
+  for (const Target& t : to_particles) {
+    if (s.receivers.empty() || s.receivers.back() != t.node) {
+      s.receivers.push_back(t.node);
+      s.returned.offset.push_back(s.returned.offset.back());
+    }
+    s.returned.value.push_back(t.term);
+    ++s.returned.offset.back();
+  }
+  for (Target& t : to_nodes) t.node -= s.particles();
+  const Csr<Target> rows =
+      group_by_row<Target>(s.boundary_nodes(), to_nodes, [](const Target& t) { return t.node; });
+  s.returned_to_node.offset = rows.offset;
+  for (const Target& t : rows.value) s.returned_to_node.value.push_back(t.term);
+}
+
+void prepare_viscosity(System& s, const std::vector<Index>& material_of) {
+  const bool viscous = std::any_of(s.materials.begin(), s.materials.end(), [](const Material& m) {
+    return m.viscosity.linear > 0.0 || m.viscosity.quadratic > 0.0;
+  });
+  if (!viscous) return;
+  const std::vector<double> h = shortest_bonds(s.d);
+  for (std::size_t a = 0; a < h.size(); ++a)
+    s.viscosity.push_back(viscosity_law(s.materials[static_cast<std::size_t>(material_of[a])], h[a]));
+}
+
+}  // namespace
+
+System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of) {
+  System s;
+  s.d = std::move(d);
+  s.materials = std::move(materials);
+  s.ranges = material_ranges(material_of);
+  s.mass.resize(s.d.X.size());
+  for (std::size_t a = 0; a < s.mass.size(); ++a)
+    s.mass[a] = s.materials[static_cast<std::size_t>(material_of[a])].density * s.d.volume[a];
+  for (const BoundaryNode& f : s.d.nodes) {
+    const auto a = static_cast<std::size_t>(f.owner);
+    s.nodes.push_back(node_mechanics(f, s.d.X[a], s.materials[static_cast<std::size_t>(material_of[a])]));
+  }
+  group_owners(s);
+  transpose_closure(s);
+  prepare_viscosity(s, material_of);
+  return s;
+}
+
+}  // namespace tessera

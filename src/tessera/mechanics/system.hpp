@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "tessera/base/csr.hpp"
+#include "tessera/discretization/discretization.hpp"
+#include "tessera/laws/material.hpp"
+#include "tessera/laws/viscosity.hpp"
+#include "tessera/mechanics/kernel_types.hpp"
+
+namespace tessera {
+
+/// Consecutive particles of one material.
+struct MaterialRange {
+  Index begin = 0;
+  Index end = 0;
+  Index material = 0;
+};
+
+/// A boundary node as the force calculation needs it.
+struct NodeMechanics {
+  Vec3 X_af;       // reference position relative to the owner [m]
+  Mat3 stiffness;  // D (Kn N (x) N + Kt (I - N (x) N)) D of the boundary bond [N/m]
+};
+
+/// How much of the force on boundary node `node` a particle (or a fully prescribed node) receives.
+struct ReturnTerm {
+  Index node = 0;
+  double constrained = 0.0;  // factor of D R_f
+  double free = 0.0;         // factor of (I - D) R_f
+};
+
+/// Everything that does not change during a run. Nodes are the particles followed by the boundary nodes.
+struct System {
+  Discretization d;
+  std::vector<Material> materials;
+  std::vector<MaterialRange> ranges;  // ascending, cover all particles
+  std::vector<double> mass;           // [kg]
+
+  std::vector<NodeMechanics> nodes;
+  std::vector<Index> owners;          // particles that own boundary nodes, ascending
+  std::vector<Index> first_node;      // of each owner; one more entry at the end
+  std::vector<Index> receivers;       // particles that a closure names, ascending
+  Csr<ReturnTerm> returned;           // the transposed closure: one row per receiver
+  Csr<ReturnTerm> returned_to_node;   // the same for nodes that other nodes follow: one row per boundary node
+
+  std::vector<ViscosityLaw> viscosity;  // per particle; empty when no material is viscous
+
+  Index particles() const { return d.particles(); }
+  Index boundary_nodes() const { return static_cast<Index>(d.nodes.size()); }
+};
+
+/// Puts a system together. `material_of` gives the material of each particle; equal ones must be consecutive within a body.
+System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of);
+
+}  // namespace tessera
