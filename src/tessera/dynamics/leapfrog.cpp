@@ -1,0 +1,75 @@
+#include "tessera/dynamics/leapfrog.hpp"
+
+#include "tessera/parallel/parallel.hpp"
+
+namespace tessera {
+
+Leapfrog::Leapfrog(const System& system, const Loads& loads, double damping)
+    : system_(system), loads_(loads), damping_(damping) {
+  const auto& constraints = system.d.constraints;
+  if (constraints.empty()) return;
+  constraint_of_.assign(system.d.X.size(), -1);
+  for (std::size_t i = 0; i < constraints.size(); ++i)
+    constraint_of_[static_cast<std::size_t>(constraints[i].particle)] = static_cast<Index>(i);
+  next_velocity_.resize(constraints.size());
+  reactions_.resize(constraints.size());
+}
+
+Double4 Leapfrog::free_kick(const State& state, const Forces& forces, double h, Index a) const {
+  const auto k = static_cast<std::size_t>(a);
+  const double drag = 0.5 * damping_ * h;
+  return ((1.0 - drag) * state.v[k] + (h / system_.mass[k]) * forces.total()[k]) * (1.0 / (1.0 + drag));
+}
+
+Vec3 Leapfrog::constrained_velocity(const State& state, std::size_t i, double dt, const Vec3& free) const {
+  const ParticleConstraint& c = system_.d.constraints[i];
+  const Vec3 x = to_vec3(state.x[static_cast<std::size_t>(c.particle)]);
+  const Vec3 prescribed = (1.0 / dt) * (loads_.motion.positions()[i] - x);
+  return c.D * (prescribed - free) + free;
+}
+
+void Leapfrog::start(State& state, const Forces& forces, double dt) const {
+  parallel::for_each(system_.particles(), [&](std::int64_t a) {
+    const auto k = static_cast<std::size_t>(a);
+    const Double4 acceleration = (1.0 / system_.mass[k]) * forces.total()[k] - damping_ * state.v[k];
+    state.v[k] -= (0.5 * dt) * acceleration;
+  });
+  for (std::size_t i = 0; i < system_.d.constraints.size(); ++i) {
+    const auto k = static_cast<std::size_t>(system_.d.constraints[i].particle);
+    state.v[k] = to_kernel(constrained_velocity(state, i, dt, to_vec3(state.v[k])));
+  }
+}
+
+void Leapfrog::prepare(const State& state, const Forces& forces, StepPair dt) {
+  const double h = dt.middle();
+  for (std::size_t i = 0; i < system_.d.constraints.size(); ++i) {
+    const ParticleConstraint& c = system_.d.constraints[i];
+    const auto k = static_cast<std::size_t>(c.particle);
+    next_velocity_[i] = constrained_velocity(state, i, dt.after, to_vec3(free_kick(state, forces, h, c.particle)));
+    const Vec3 v_minus = to_vec3(state.v[k]), change = next_velocity_[i] - v_minus;
+    const Vec3 needed = system_.mass[k] * ((1.0 / h) * change + (0.5 * damping_) * (v_minus + next_velocity_[i]));
+    reactions_[i] = c.D * (to_vec3(forces.total()[k]) - needed);
+  }
+}
+
+void Leapfrog::step(State& state, const Forces& forces, StepPair dt) const {
+  const double h = dt.middle();
+  parallel::for_each(system_.particles(), [&](std::int64_t a) {
+    const auto k = static_cast<std::size_t>(a);
+    state.v[k] = free_kick(state, forces, h, static_cast<Index>(a));
+    if (!constraint_of_.empty() && constraint_of_[k] >= 0)
+      state.v[k] = to_kernel(next_velocity_[static_cast<std::size_t>(constraint_of_[k])]);
+    state.x[k] += dt.after * state.v[k];
+  });
+}
+
+Vec3 Leapfrog::velocity(const State& state, const Forces& forces, StepPair dt, Index a) const {
+  const auto k = static_cast<std::size_t>(a);
+  const bool constrained = !constraint_of_.empty() && constraint_of_[k] >= 0;
+  const Vec3 v_plus = constrained ? next_velocity_[static_cast<std::size_t>(constraint_of_[k])]
+                                  : to_vec3(free_kick(state, forces, dt.middle(), a));
+  const Vec3 v_minus = to_vec3(state.v[k]);
+  return v_minus + (dt.before / (dt.before + dt.after)) * (v_plus - v_minus);
+}
+
+}  // namespace tessera

@@ -1,0 +1,93 @@
+#include "tessera/dynamics/time_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tessera {
+
+namespace {
+
+// Steps between two spectral estimates: an estimate costs some thirty evaluations of the forces.
+constexpr std::int64_t first_interval = 500, shortest_interval = 50, longest_interval = 4000;
+// Change of the limit between two estimates that calls for closer watch.
+constexpr double watchful_change = 0.02;
+
+const Material& material(const System& s, const MaterialRange& r) {
+  return s.materials[static_cast<std::size_t>(r.material)];
+}
+
+/// Steps that divide the rest of the run evenly, so that it ends on time without a short last step.
+double divide_evenly(double rest, double dt) { return rest / std::ceil(rest / dt * (1.0 - 1e-12)); }
+
+}  // namespace
+
+double shortest_travel_time(const System& s) {
+  const std::vector<double> h = shortest_bonds(s.d);
+  double shortest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  for (const MaterialRange& r : s.ranges) {
+    fastest = std::max(fastest, material(s, r).wave_speed());
+    for (Index a = r.begin; a < r.end; ++a)
+      shortest = std::min(shortest, h[static_cast<std::size_t>(a)] / material(s, r).wave_speed());
+  }
+  return std::min(shortest, shortest_length(s.d) / fastest);
+}
+
+double stable_step(const System& s, double omega) {
+  double tau = 0.0;  // ratio of viscous to elastic plane-wave modulus
+  if (!s.viscosity.empty())
+    for (const MaterialRange& r : s.ranges)
+      for (Index a = r.begin; a < r.end; ++a)
+        tau = std::max(tau, s.viscosity[static_cast<std::size_t>(a)].linear / material(s, r).plane_wave_modulus());
+  const double z = 0.5 * tau * omega;
+  return 2.0 / omega * (std::sqrt(1.0 + z * z) - z);
+}
+
+StepControl::StepControl(const TimeSpec& spec, const System& system, const State& state, std::span<const Vec3> walls)
+    : spec_(spec), system_(system), estimator_(system) {
+  memory_.interval = first_interval;
+  if (std::holds_alternative<AutoStep>(spec.step)) {
+    memory_.dt = spec.safety * shortest_travel_time(system);
+  } else {
+    estimate(0, state, walls);
+  }
+  if (const auto* fixed = std::get_if<FixedStep>(&spec.step)) {
+    if (fixed->dt > limit_ && !fixed->force)
+      throw InputError(spec.origin, fmt::format("the step of {:g} s is above the spectral limit of {:g} s; take a smaller one, "
+                                                "\"auto\" or \"auto-spectral\" (or force = true)",
+                                                fixed->dt, limit_));
+    memory_.dt = fixed->dt;
+  } else if (spec.end > 0.0) {
+    memory_.dt = divide_evenly(spec.end, memory_.dt);
+  }
+}
+
+void StepControl::estimate(std::int64_t step, const State& state, std::span<const Vec3> walls) {
+  const double omega = estimator_.largest_frequency(state, walls, shortest_length(system_.d));
+  const double limit = omega > 0.0 ? stable_step(system_, omega) : std::numeric_limits<double>::infinity();
+  if (limit_ > 0.0) {
+    const bool changed = std::abs(limit - limit_) > watchful_change * limit_;
+    memory_.interval = std::clamp(changed ? memory_.interval / 2 : memory_.interval * 2, shortest_interval, longest_interval);
+  }
+  limit_ = memory_.limit = limit;
+  memory_.estimated_at = step;
+  memory_.dt = std::min(spec_.safety * limit, std::max(spec_.end, 1.0));
+}
+
+double StepControl::next(std::int64_t step, double time, const State& state, std::span<const Vec3> walls) {
+  if (std::holds_alternative<AutoSpectralStep>(spec_.step) && step >= memory_.estimated_at + memory_.interval) {
+    estimate(step, state, walls);
+    memory_.dt = divide_evenly(spec_.end - time, memory_.dt);
+  }
+  const double rest = spec_.end - time;
+  return memory_.dt > rest * (1.0 - 1e-9) ? rest : memory_.dt;
+}
+
+void StepControl::restore(const Memory& memory) {
+  memory_ = memory;
+  limit_ = memory.limit;
+}
+
+}  // namespace tessera
