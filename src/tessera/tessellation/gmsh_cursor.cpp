@@ -47,6 +47,7 @@ void GmshCursor::skip_doubles(std::size_t count) {
 
 std::string_view GmshCursor::read_word() {
   skip_space();
+  last_ = position_;
   if (at_end()) fail("the file ends too early: it is truncated; write it again");
   const std::size_t begin = position_;
   while (!at_end() && !is_space(bytes_[position_])) ++position_;
@@ -55,6 +56,7 @@ std::string_view GmshCursor::read_word() {
 
 std::string GmshCursor::read_quoted() {
   skip_space();
+  last_ = position_;
   const std::size_t begin = position_;
   const std::size_t end = at_end() || bytes_[begin] != '"' ? std::string_view::npos : bytes_.find('"', begin + 1);
   if (end == std::string_view::npos) fail("a name in double quotes is missing");
@@ -70,6 +72,7 @@ void GmshCursor::skip_to_next_line() {
 void GmshCursor::expect_line_end() {
   if (encoding_ == GmshEncoding::binary) return;
   while (!at_end() && is_space(bytes_[position_]) && bytes_[position_] != '\n') ++position_;
+  last_ = position_;
   if (!at_end() && bytes_[position_] != '\n')
     fail("this line or the one before has too many or too few numbers: the file is damaged; write it again");
 }
@@ -88,9 +91,8 @@ void GmshCursor::skip_section(std::string_view name) {
 
 void GmshCursor::expect(std::string_view word) {
   skip_space();
-  const std::size_t begin = position_;
-  const std::string_view found = bytes_.substr(begin, word.size());
-  if (found != word)
+  last_ = position_;
+  if (bytes_.substr(position_, word.size()) != word)
     fail(fmt::format(
         "{} is missing here: the section's counts are wrong, or the file is damaged or truncated; write it again",
         word));
@@ -98,12 +100,16 @@ void GmshCursor::expect(std::string_view word) {
 }
 
 std::int64_t GmshCursor::place() {
-  if (encoding_ == GmshEncoding::binary) return static_cast<std::int64_t>(position_) + 1;
-  skip_space();
-  if (position_ < counted_position_) counted_position_ = 0, line_ = 1;
+  if (encoding_ == GmshEncoding::ascii) skip_space();
+  return place_of(position_);
+}
+
+std::int64_t GmshCursor::place_of(std::size_t position) {
+  if (encoding_ == GmshEncoding::binary) return static_cast<std::int64_t>(position) + 1;
+  if (position < counted_position_) counted_position_ = 0, line_ = 1;
   line_ += std::count(bytes_.begin() + static_cast<std::ptrdiff_t>(counted_position_),
-                      bytes_.begin() + static_cast<std::ptrdiff_t>(position_), '\n');
-  counted_position_ = position_;
+                      bytes_.begin() + static_cast<std::ptrdiff_t>(position), '\n');
+  counted_position_ = position;
   return line_;
 }
 
@@ -111,11 +117,12 @@ void GmshCursor::fail(std::string_view message) {
   std::string text(message);
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  throw GeometryError(locate(path_, unit(), place()) + text);
+  throw GeometryError(locate(path_, unit(), place_of(last_)) + text);
 }
 
 template <class T>
 T GmshCursor::read_binary() {
+  last_ = position_;
   if (bytes_.size() - position_ < sizeof(T)) fail("the file ends too early: it is truncated; write it again");
   T value;
   std::memcpy(&value, bytes_.data() + position_, sizeof(T));
@@ -131,7 +138,6 @@ T GmshCursor::read_text(std::string_view kind) {
   T value{};
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc() && stop == end) return value;
-  position_ -= word.size();
   fail(fmt::format("{} is expected here, found \"{}\": the file is damaged or truncated; write it again", kind,
                    word.substr(0, 40)));
 }

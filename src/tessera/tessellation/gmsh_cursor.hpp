@@ -48,9 +48,11 @@ class GmshCursor {
   /// Line or byte of the next number, from one.
   std::int64_t place();
   PlaceUnit unit() const { return encoding_ == GmshEncoding::ascii ? PlaceUnit::line : PlaceUnit::byte; }
+  /// Throws GeometryError at the last number or word that was read.
   [[noreturn]] void fail(std::string_view message);
 
  private:
+  std::int64_t place_of(std::size_t position);
   template <class T>
   T read_binary();
   template <class T>
@@ -59,6 +61,7 @@ class GmshCursor {
   const std::string& path_;
   std::string_view bytes_;
   std::size_t position_ = 0;
+  std::size_t last_ = 0;              // where the last number or word began
   std::size_t counted_position_ = 0;  // the line breaks before this one have been counted
   std::int64_t line_ = 1;
   GmshEncoding encoding_ = GmshEncoding::ascii;

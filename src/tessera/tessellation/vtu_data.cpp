@@ -58,6 +58,9 @@ VtuStream stream_of(const VtuLayout& layout, const VtuArray& array) {
   if (format == "binary") return {layout, array.line, VtuEncoding::base64, array.text};
   if (format != "appended")
     layout.fail(array.line, fmt::format("format \"{}\" is none of ascii, binary, appended", format.substr(0, 20)));
+  if (layout.appended_encoding.empty())
+    layout.fail(array.line,
+                "the array's data are appended, but no <AppendedData> follows: the file is truncated; write it again");
   const std::string_view text = attribute(array.attributes, "offset");
   std::uint64_t offset = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), offset);
