@@ -21,6 +21,9 @@ std::string list_of(std::span<const std::string> words, std::string_view conjunc
 
 /// `text` in double quotes, with line ends and other control characters escaped, so that it stays on one line.
 std::string quoted(std::string_view text);
+// Where <iomanip> is included, std::quoted would be the better match for strings without these.
+inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }
+inline std::string quoted(std::string& text) { return quoted(std::string_view(text)); }
 
 /// `text` without the blanks at its ends.
 std::string_view trimmed(std::string_view text);

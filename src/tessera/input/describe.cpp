@@ -24,16 +24,19 @@ bool is_section(const Parameter& p) { return p.key.find('.') == std::string::npo
 /// "[time]", "[[body]]", "body.name".
 std::string heading(const Parameter& p) {
   if (!is_section(p)) return p.key;
-  return p.kind == Kind::tables ? "[[" + p.key + "]]" : "[" + p.key + "]";
+  return p.kind == Kind::tables ? fmt::format("[[{}]]", p.key) : fmt::format("[{}]", p.key);
+}
+
+std::string basic_presence(const Parameter& p) {
+  if (p.presence == Presence::required) return "required";
+  return p.standard.empty() ? "optional" : fmt::format("default {}", p.standard);
 }
 
 std::string presence_text(const Parameter& p) {
-  std::string text = "optional";
-  if (p.presence == Presence::required) text = "required";
-  if (p.presence == Presence::defaulted && !p.standard.empty()) text = "default " + p.standard;
-  if (!p.exactly_one.empty()) text += ", exactly one of " + list_of(p.exactly_one);
-  const std::string condition = input::conditions_text(p);
-  return condition.empty() ? text : text + ", only with " + condition;
+  std::vector<std::string> parts = {basic_presence(p)};
+  if (!p.exactly_one.empty()) parts.push_back(fmt::format("exactly one of {}", list_of(p.exactly_one)));
+  if (!p.only_with.empty()) parts.push_back(fmt::format("only with {}", input::conditions_text(p)));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string row_text(const Parameter& p) {
@@ -49,7 +52,10 @@ std::string quantities_text() {
 /// Bars end a cell of a Markdown table.
 std::string cell(const std::string& text) {
   std::string result;
-  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  for (const char c : text) {
+    if (c == '|') result += '\\';
+    result += c;
+  }
   return result;
 }
 
@@ -72,7 +78,7 @@ std::string without_numbers(const std::string& key) {
     const std::string part = key.substr(begin, dot - begin);
     const bool number =
         !part.empty() && std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isdigit(c); });
-    if (!number) result += (result.empty() ? "" : ".") + part;
+    if (!number) result.append(result.empty() ? "" : ".").append(part);
     begin = dot + 1;
   }
   return result;
@@ -102,7 +108,7 @@ std::string rows_where(Wanted wanted) {
 std::string describe_input() {
   std::string text =
       "Numbers are in SI units; strings may carry a unit, as in \"17 MPa\". Formulas know t, X, Y, Z, pi.\n";
-  for (const Parameter& p : input::parameters()) text += (is_section(p) ? "\n" : "") + row_text(p);
+  for (const Parameter& p : input::parameters()) text.append(is_section(p) ? "\n" : "").append(row_text(p));
   return text + quantities_text();
 }
 
@@ -110,8 +116,10 @@ std::string describe_key(const std::string& key) {
   std::string wanted = without_numbers(key);
   std::erase_if(wanted, [](char c) { return c == '[' || c == ']'; });
   if (wanted.empty()) fail_unknown(key);
-  std::string text = rows_where([&](const Parameter& p) { return p.key == wanted || p.key.starts_with(wanted + "."); });
-  if (text.empty()) text = rows_where([&](const Parameter& p) { return p.key.ends_with("." + wanted); });
+  const std::string beginning = fmt::format("{}.", wanted);
+  std::string text = rows_where([&](const Parameter& p) { return p.key == wanted || p.key.starts_with(beginning); });
+  const std::string ending = fmt::format(".{}", wanted);
+  if (text.empty()) text = rows_where([&](const Parameter& p) { return p.key.ends_with(ending); });
   if (text.empty()) fail_unknown(key);
   if (wanted.ends_with("quantities") || wanted.ends_with("quantity")) text += quantities_text();
   return text;

@@ -28,7 +28,7 @@ struct Printer {
   std::string operator()(const std::string& s) const { return quoted(s); }
   std::string operator()(const Array& a) const {
     std::string text = "[";
-    for (const Value& v : a) text += (text.size() > 1 ? ", " : "") + to_toml(v);
+    for (const Value& v : a) text.append(text.size() > 1 ? ", " : "").append(to_toml(v));
     return text + "]";
   }
   std::string operator()(const Table& t) const {
