@@ -24,6 +24,7 @@ std::string quoted(std::string_view text);
 // Where <iomanip> is included, std::quoted would be the better match for strings without these.
 inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }
 inline std::string quoted(std::string& text) { return quoted(std::string_view(text)); }
+inline std::string quoted(const char* text) { return quoted(std::string_view(text)); }
 
 /// `text` without the blanks at its ends.
 std::string_view trimmed(std::string_view text);
