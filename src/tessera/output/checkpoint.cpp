@@ -1,6 +1,7 @@
 #include "tessera/output/checkpoint.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <array>
 #include <cerrno>
@@ -17,9 +18,36 @@ namespace tessera {
 namespace {
 
 constexpr std::int64_t checkpoint_version = 1;
+constexpr const char* version_key = "tessera_checkpoint";
+constexpr const char* checksum_key = "checksum";
+constexpr const char* damaged = "the checkpoint is truncated or damaged; go on from another one or start the run again";
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   throw InputError({path, 0, 0, ""}, reason);
+}
+
+std::uint32_t crc(std::uint32_t start, const void* bytes, std::size_t size) {
+  return static_cast<std::uint32_t>(crc32_z(start, static_cast<const Bytef*>(bytes), size));
+}
+
+template <class Map>
+std::uint32_t crc_of_entries(std::uint32_t sum, const Map& entries) {
+  const std::uint64_t count = entries.size();
+  sum = crc(sum, &count, sizeof count);
+  for (const auto& [name, values] : entries) {
+    const std::array<std::uint64_t, 2> sizes = {name.size(), values.size()};
+    sum = crc(sum, sizes.data(), sizeof sizes);
+    sum = crc(sum, name.data(), name.size());
+    if (!values.empty()) sum = crc(sum, values.data(), values.size() * sizeof(values[0]));
+  }
+  return sum;
+}
+
+/// CRC-32 of all names, sizes and values. HDF5's own checksums leave out which data belong to which name.
+std::int64_t checksum(const Checkpoint& checkpoint) {
+  std::uint32_t sum = crc_of_entries(0, checkpoint.arrays);
+  sum = crc_of_entries(sum, checkpoint.integers);
+  return crc_of_entries(sum, checkpoint.texts);
 }
 
 template <class Map>
@@ -85,20 +113,24 @@ class Reader {
   }
 
   std::int64_t version() const {
-    if (H5Aexists(file_.get(), "tessera_checkpoint") <= 0) fail(path_, "is not a checkpoint of tessera");
-    const Hdf5Id attribute(good(H5Aopen(file_.get(), "tessera_checkpoint", H5P_DEFAULT)), H5Aclose);
-    std::int64_t version = 0;
-    good(H5Aread(attribute.get(), H5T_NATIVE_INT64, &version));
-    return version;
+    if (H5Aexists(file_.get(), version_key) <= 0) fail(path_, "is not a checkpoint of tessera");
+    return attribute(version_key);
   }
 
- private:
+  std::int64_t attribute(const char* name) const {
+    const Hdf5Id attribute(good(H5Aopen(file_.get(), name, H5P_DEFAULT)), H5Aclose);
+    std::int64_t value = 0;
+    good(H5Aread(attribute.get(), H5T_NATIVE_INT64, &value));
+    return value;
+  }
+
   template <class T>
   T good(T result) const {
-    if (result < 0) fail(path_, "the checkpoint is damaged; go on from another one or start the run again");
+    if (result < 0) fail(path_, damaged);
     return result;
   }
 
+ private:
   Hdf5Id open(const std::string& name) const {
     return {good(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT)), H5Dclose};
   }
@@ -114,8 +146,7 @@ Reader open_checkpoint(const std::string& path) {
   silence_hdf5();
   if (H5Fis_hdf5(path.c_str()) <= 0) fail(path, "is not a checkpoint: no HDF5 file");
   Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file.valid())
-    fail(path, "the checkpoint is truncated or damaged; go on from another one or start the run again");
+  if (!file.valid()) fail(path, damaged);
   return {path, std::move(file)};
 }
 
@@ -135,8 +166,9 @@ const std::vector<std::int64_t>& Checkpoint::integer(const std::string& name, st
 }
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-  Hdf5Image file(Hdf5Storage::checked);
-  file.attribute("/", "tessera_checkpoint", std::array<std::int64_t, 1>{checkpoint_version});
+  Hdf5Image file(Hdf5Storage::plain);
+  file.attribute("/", version_key, std::array<std::int64_t, 1>{checkpoint_version});
+  file.attribute("/", checksum_key, std::array<std::int64_t, 1>{checksum(checkpoint)});
   for (const char* group : {"/arrays", "/integers", "/texts"}) file.group(group);
   for (const auto& [name, values] : checkpoint.arrays) {
     check_name(path, name);
@@ -164,6 +196,7 @@ Checkpoint read_checkpoint(const std::string& path) {
   for (const std::string& name : reader.names("/integers"))
     checkpoint.integers[name] = reader.array<std::int64_t>("/integers/" + name, H5T_NATIVE_INT64);
   for (const std::string& name : reader.names("/texts")) checkpoint.texts[name] = reader.text("/texts/" + name);
+  if (reader.attribute(checksum_key) != checksum(checkpoint)) fail(path, damaged);
   return checkpoint;
 }
 

@@ -23,8 +23,8 @@ struct Checkpoint {
   const std::vector<std::int64_t>& integer(const std::string& name, std::size_t size) const;
 };
 
-/// Writes `checkpoint` as an HDF5 file with checksums: groups `arrays`, `integers`, `texts`. It replaces the file
-/// `path` only when it is complete and on the disk. Throws RunError when that fails.
+/// Writes `checkpoint` as an HDF5 file: groups `arrays`, `integers`, `texts`, and a checksum over all of them. It
+/// replaces the file `path` only when it is complete and on the disk. Throws RunError when that fails.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
 /// Reads what write_checkpoint() wrote. Throws InputError that names the file when it is missing, no HDF5 file,

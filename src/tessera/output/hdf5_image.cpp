@@ -25,6 +25,13 @@ Hdf5Id dataspace(std::span<const hsize_t> sizes) {
   return {good(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr)), H5Sclose};
 }
 
+/// Properties for something new, without the time of day: equal content gives equal bytes.
+Hdf5Id timeless(hid_t kind) {
+  Hdf5Id properties(good(H5Pcreate(kind)), H5Pclose);
+  good(H5Pset_obj_track_times(properties.get(), false));
+  return properties;
+}
+
 /// HDF5 takes files of one name for the same file, and looks for one on the disk; these exist nowhere.
 std::string unused_name() {
   static std::atomic<int> images = 0;
@@ -41,18 +48,14 @@ Hdf5Id string_type(const std::string& value) {
 }
 
 Hdf5Id storage_of(Hdf5Storage storage, std::span<const hsize_t> sizes, std::size_t item_bytes) {
-  Hdf5Id plist(good(H5Pcreate(H5P_DATASET_CREATE)), H5Pclose);
-  if (sizes[0] == 0) return plist;  // chunks cannot be empty
+  Hdf5Id plist = timeless(H5P_DATASET_CREATE);
+  if (storage == Hdf5Storage::plain || sizes[0] == 0) return plist;  // chunks cannot be empty
   const std::size_t row_bytes = item_bytes * (sizes.size() > 1 ? sizes[1] : 1);
   std::vector<hsize_t> chunk(sizes.begin(), sizes.end());
   chunk[0] = std::clamp<hsize_t>(chunk_bytes / row_bytes, 1, sizes[0]);
   good(H5Pset_chunk(plist.get(), static_cast<int>(chunk.size()), chunk.data()));
-  if (storage == Hdf5Storage::compressed) {
-    good(H5Pset_shuffle(plist.get()));
-    good(H5Pset_deflate(plist.get(), gzip_level));
-  } else {
-    good(H5Pset_fletcher32(plist.get()));
-  }
+  good(H5Pset_shuffle(plist.get()));
+  good(H5Pset_deflate(plist.get(), gzip_level));
   return plist;
 }
 
@@ -74,13 +77,15 @@ Hdf5Image::Hdf5Image(Hdf5Storage storage) : storage_(storage) {
   silence_hdf5();
   const Hdf5Id access(good(H5Pcreate(H5P_FILE_ACCESS)), H5Pclose);
   good(H5Pset_fapl_core(access.get(), image_growth, 0));
-  // Of this version on the structure of the file has checksums, too.
-  if (storage == Hdf5Storage::checked) good(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18));
-  file_ = Hdf5Id(good(H5Fcreate(unused_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())), H5Fclose);
+  // From this version on most of the file's structure has checksums. (Old readers of VTKHDF want the older one.)
+  if (storage == Hdf5Storage::plain) good(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18));
+  const Hdf5Id creation = timeless(H5P_FILE_CREATE);
+  file_ = Hdf5Id(good(H5Fcreate(unused_name().c_str(), H5F_ACC_TRUNC, creation.get(), access.get())), H5Fclose);
 }
 
 void Hdf5Image::group(const std::string& name) {
-  const Hdf5Id group(good(H5Gcreate2(file_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)), H5Gclose);
+  const Hdf5Id creation = timeless(H5P_GROUP_CREATE);
+  const Hdf5Id group(good(H5Gcreate2(file_.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT)), H5Gclose);
 }
 
 void Hdf5Image::array(const std::string& name, hid_t type, const void* values, std::size_t count,
@@ -111,8 +116,9 @@ void Hdf5Image::array(const std::string& name, std::span<const std::uint8_t> val
 void Hdf5Image::text(const std::string& name, const std::string& value) {
   const Hdf5Id type = string_type(value);
   const Hdf5Id space = scalar_space();
+  const Hdf5Id creation = timeless(H5P_DATASET_CREATE);
   const Hdf5Id data(
-      good(H5Dcreate2(file_.get(), name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)),
+      good(H5Dcreate2(file_.get(), name.c_str(), type.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT)),
       H5Dclose);
   good(H5Dwrite(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()));
 }

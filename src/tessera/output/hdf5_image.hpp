@@ -31,8 +31,8 @@ class Hdf5Id {
 /// Keeps HDF5 from printing its own error messages; ours say what matters.
 void silence_hdf5();
 
-/// How the items of an array are stored. All kinds are chunked; `checked` adds checksums that reading verifies.
-enum class Hdf5Storage { compressed, checked };
+/// How arrays are stored: by shuffle and gzip, or as they are in memory.
+enum class Hdf5Storage { compressed, plain };
 
 /// An HDF5 file that is put together in memory and saved as a whole. HDF5 itself never meets a full disk: after a
 /// failed write it can neither close the file nor end the process cleanly.
