@@ -16,13 +16,14 @@ void ConvexPolyhedron::close_face(Index tag) {
   begin.push_back(static_cast<Index>(corners.size()));
 }
 
-void Clipper::clip(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag, CoplanarFace coplanar) {
+Clipper::Outcome Clipper::clip(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag) {
   locate(polyhedron, plane);
-  if (std::find(places_.begin(), places_.end(), Place::below) == places_.end()) return polyhedron.clear();
-  if (std::find(places_.begin(), places_.end(), Place::above) == places_.end()) {
-    if (coplanar == CoplanarFace::takes_the_cut) retag(polyhedron, tag);
-    return;
+  const auto has = [&](Place place) { return std::find(places_.begin(), places_.end(), place) != places_.end(); };
+  if (!has(Place::below)) {
+    polyhedron.clear();
+    return Outcome::emptied;
   }
+  if (!has(Place::above)) return Outcome::untouched;
   result_.clear();
   result_.vertices = polyhedron.vertices;
   cut_edges_.clear();
@@ -31,6 +32,7 @@ void Clipper::clip(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag, 
   add_cap(tag);
   keep_used_vertices();
   std::swap(polyhedron, result_);
+  return Outcome::cut;
 }
 
 void Clipper::locate(const ConvexPolyhedron& polyhedron, const Plane& plane) {
@@ -43,12 +45,12 @@ void Clipper::locate(const ConvexPolyhedron& polyhedron, const Plane& plane) {
   }
 }
 
-void Clipper::retag(ConvexPolyhedron& polyhedron, Index tag) const {
+Index Clipper::touched_face(const ConvexPolyhedron& polyhedron) const {
   for (Index f = 0; f < polyhedron.faces(); ++f) {
     const std::span<const Index> face = polyhedron.face(f);
-    const bool lies_in_plane = std::all_of(face.begin(), face.end(), [&](Index v) { return place(v) == Place::on; });
-    if (lies_in_plane) polyhedron.tags[static_cast<std::size_t>(f)] = tag;
+    if (std::all_of(face.begin(), face.end(), [&](Index v) { return place(v) == Place::on; })) return f;
   }
+  return -1;
 }
 
 Index Clipper::vertex_on_edge(const ConvexPolyhedron& polyhedron, Index u, Index v) {

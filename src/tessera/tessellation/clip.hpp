@@ -28,25 +28,26 @@ struct ConvexPolyhedron {
   void close_face(Index tag);
 };
 
-/// What the tag of a face becomes when it turns out to lie in the cutting plane.
-enum class CoplanarFace { keeps_its_tag, takes_the_cut };
-
 /// Cuts polyhedra by planes, again and again, without allocating each time.
 ///
 /// A vertex within `tolerance` of the plane lies on it: it is neither cut off nor moved. So a face that coincides with
-/// the plane is not split into slivers, and cutting from both sides of one plane neither loses nor doubles a face.
+/// the plane is not split into slivers.
 class Clipper {
  public:
   explicit Clipper(double tolerance) : tolerance_(tolerance) {}
 
+  enum class Outcome { untouched, cut, emptied };
+
   /// Keeps what is below `plane`; the new face gets `tag`.
-  void clip(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag, CoplanarFace coplanar);
+  Outcome clip(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag);
+
+  /// The face that the plane of the last clip(), which left the polyhedron untouched, lies on; -1 if there is none.
+  Index touched_face(const ConvexPolyhedron& polyhedron) const;
 
  private:
   enum class Place : signed char { below, on, above };
 
   void locate(const ConvexPolyhedron& polyhedron, const Plane& plane);
-  void retag(ConvexPolyhedron& polyhedron, Index tag) const;
   void cut_face(const ConvexPolyhedron& polyhedron, Index f);
   void add_cap(Index tag);
   void keep_used_vertices();

@@ -6,12 +6,12 @@
 
 #include "tessera/geometry/solid.hpp"
 #include "tessera/tessellation/clip.hpp"
-#include "tessera/tessellation/voronoi_convex.hpp"
+#include "tessera/tessellation/voronoi_nearest.hpp"
 
 namespace tessera {
 
-/// Makes one Voronoi cell after the other and cuts it by the convex pieces of a solid. Not thread-safe: one cutter
-/// belongs to one thread.
+/// Makes one Voronoi cell after the other, in the convex pieces of a solid: a piece is cut by the bisectors to ever
+/// farther particles, until none can reach what is left. Not thread-safe: one cutter belongs to one thread.
 class VoronoiCutter {
  public:
   /// Face tags of the parts of a cell: the particle behind the face; a wall between two pieces of the solid, which
@@ -21,17 +21,20 @@ class VoronoiCutter {
   static constexpr bool is_side(Index tag) { return tag <= -2; }
   static constexpr Index side_of(Index tag) { return -2 - tag; }
 
-  /// Both must outlive the cutter. Errors as for ConvexVoronoi.
+  /// Both must outlive the cutter.
   VoronoiCutter(std::span<const Vec3> points, const Solid& solid);
 
-  /// The parts of a cell, one for each piece of the solid that it meets; valid until the next call.
+  /// The parts of a cell, one for each piece of the solid that it meets; valid until the next call. Throws
+  /// GeometryError when the particle is outside the solid or coincides with another.
   std::span<const ConvexPolyhedron> cut(Index particle);
 
  private:
-  bool is_within(const ConvexPiece& piece) const;
-  void cut_by(const ConvexPiece& piece, ConvexPolyhedron& part);
-  void place_corners(Index particle, const ConvexPiece* piece, ConvexPolyhedron& part);
-  void place_on_walls(const ConvexPiece& piece, ConvexPolyhedron& part) const;
+  std::size_t piece_around(Index particle) const;
+  void cut_piece(Index particle, const ConvexPiece& piece, ConvexPolyhedron& part);
+  bool can_reach(const ConvexPolyhedron& part, const ConvexPiece& from, const ConvexPolyhedron& other) const;
+  void place_corners(Index particle, const ConvexPiece& piece, ConvexPolyhedron& part);
+  static void place_on_walls(const ConvexPiece& piece, ConvexPolyhedron& part);
+  static void tag_sides(const ConvexPiece& piece, ConvexPolyhedron& part);
 
   struct Incidence {
     std::array<Index, 3> tags{};
@@ -41,10 +44,10 @@ class VoronoiCutter {
   std::span<const Vec3> points_;
   const Solid& solid_;
   double tolerance_;
-  ConvexVoronoi convex_;
   Clipper clipper_;
-  ConvexPolyhedron whole_;
-  std::vector<ConvexPolyhedron> parts_;  // only the first of them are in use
+  NearestPoints nearest_;
+  std::vector<ConvexPolyhedron> pieces_;  // of the solid, faces tagged by wall
+  std::vector<ConvexPolyhedron> parts_;   // only the first of them are in use
   std::vector<Incidence> incidence_;
 };
 
