@@ -29,8 +29,7 @@ using Position = std::vector<Term>;
 
 class ConsistentFaces {
  public:
-  ConsistentFaces(std::span<const Vec3> X, const Cells& cells)
-      : X_(X), cells_(cells), faces_(faces_of_cells(cells)) {}
+  ConsistentFaces(std::span<const Vec3> X, const Cells& cells) : X_(X), cells_(cells), faces_(faces_of_cells(cells)) {}
 
   Position interior(const InteriorFace& f) const;
   Position boundary(const BoundaryFace& f, const Mat3& D) const;
@@ -95,10 +94,11 @@ Position ConsistentFaces::interior(const InteriorFace& f) const {
     if (norm(weights.residual) <= position_tolerance * L && weights.amplification <= largest_amplification)
       return around(f, stencil, weights);
   }
-  throw GeometryError(fmt::format(
-      "the face between particles {} at ({:g}, {:g}, {:g}) and {} at ({:g}, {:g}, {:g}) cannot follow a linear motion: their "
-      "neighbours lie in one plane or line; use at least two layers of particles in every direction",
-      f.a, at(f.a).x, at(f.a).y, at(f.a).z, f.b, at(f.b).x, at(f.b).y, at(f.b).z));
+  throw GeometryError(
+      fmt::format("the face between particles {} at ({:g}, {:g}, {:g}) and {} at ({:g}, {:g}, {:g}) cannot follow a "
+                  "linear motion: their "
+                  "neighbours lie in one plane or line; use at least two layers of particles in every direction",
+                  f.a, at(f.a).x, at(f.a).y, at(f.a).z, f.b, at(f.b).x, at(f.b).y, at(f.b).z));
 }
 
 /// The free components of c_f = x_a + sum_c w_c (x_c - x_a): over the neighbours, over theirs too where those do not
@@ -128,10 +128,11 @@ Position ConsistentFaces::boundary(const BoundaryFace& f, const Mat3& D) const {
     position.push_back({f.owner, 1.0 - sum});
     return position;
   }
-  throw GeometryError(fmt::format(
-      "the boundary face of particle {} at ({:g}, {:g}, {:g}) cannot follow a linear motion: the particle's neighbours lie in "
-      "one plane or line; use at least two layers of particles in every direction",
-      f.owner, at(f.owner).x, at(f.owner).y, at(f.owner).z));
+  throw GeometryError(
+      fmt::format("the boundary face of particle {} at ({:g}, {:g}, {:g}) cannot follow a linear motion: the "
+                  "particle's neighbours lie in "
+                  "one plane or line; use at least two layers of particles in every direction",
+                  f.owner, at(f.owner).x, at(f.owner).y, at(f.owner).z));
 }
 
 /// Positions of all faces; empty for boundary faces that are wholly prescribed.
@@ -160,9 +161,8 @@ Csr<Index> distant_pairs(const Csr<FaceOfCell>& faces, const Positions& position
   const auto note = [&](Index a, const Position& position) {
     const auto row = faces.row(a);
     for (const Term& t : position) {
-      const bool near = t.particle == a || std::any_of(row.begin(), row.end(), [&](const FaceOfCell& f) {
-                          return f.neighbour == t.particle;
-                        });
+      const bool near = t.particle == a || std::any_of(row.begin(), row.end(),
+                                                       [&](const FaceOfCell& f) { return f.neighbour == t.particle; });
       if (!near) pairs.push_back({a, t.particle}), pairs.push_back({t.particle, a});
     }
   };
@@ -172,8 +172,8 @@ Csr<Index> distant_pairs(const Csr<FaceOfCell>& faces, const Positions& position
   }
   for (std::size_t i = 0; i < cells.boundary.size(); ++i)
     if (is_zero(D[i])) note(cells.boundary[i].owner, positions.boundary[i]);
-  const Csr<Pair> rows = group_by_row<Pair>(static_cast<Index>(cells.volume.size()), pairs,
-                                            [](const Pair& p) { return p.a; });
+  const Csr<Pair> rows =
+      group_by_row<Pair>(static_cast<Index>(cells.volume.size()), pairs, [](const Pair& p) { return p.a; });
   Csr<Index> distant;
   distant.offset = rows.offset;
   for (const Pair& p : rows.value) distant.value.push_back(p.b);
@@ -213,13 +213,14 @@ void build_bonds(Discretization& d, const Csr<FaceOfCell>& faces, const Position
   complete_bonds(d.bonds, d.X);
   d.bonds.area_over_length.assign(d.bonds.neighbour.size(), 0.0);
   for (const InteriorFace& f : cells.interior) {
-    const auto ab = static_cast<std::size_t>(d.bonds.find(f.a, f.b)), ba = static_cast<std::size_t>(d.bonds.find(f.b, f.a));
+    const auto ab = static_cast<std::size_t>(d.bonds.find(f.a, f.b)),
+               ba = static_cast<std::size_t>(d.bonds.find(f.b, f.a));
     d.bonds.area_over_length[ab] = d.bonds.area_over_length[ba] = norm(f.area) / norm(d.bonds.X_ab[ab]);
   }
 }
 
-/// A node per constrained face: stiffness as of a ghost bond (four times A/L because the displacement is that of the face,
-/// half of the ghost's), L not below a quarter of the cell's size.
+/// A node per constrained face: stiffness as of a ghost bond (four times A/L because the displacement is that of the
+/// face, half of the ghost's), L not below a quarter of the cell's size.
 BoundaryNode constrained_node(const BoundaryFace& f, Index site, const Mat3& D, const Vec3& X_a, double V_a) {
   BoundaryNode node;
   node.owner = f.owner;

@@ -34,15 +34,15 @@ struct Bonds {
 ///     x_f = wall_share D W_f(t) + sum_k (constrained_k D + free_k (I - D)) x_k        k: closure row
 struct BoundaryNode {
   Index owner = 0;
-  Index site = 0;            // the boundary face, index into Discretization::sites
-  Vec3 X;                    // reference position of the node [m]
-  Vec3 wall;                 // reference position W_f of the prescribed point [m]
-  Vec3 N;                    // outward unit normal of the face
-  Vec3 area;                 // outward area vector of the face [m2]
-  Mat3 D;                    // projection onto the constrained directions, [V 14]
-  double wall_share = 1.0;   // 1: node on the wall; 2: ghost behind it
-  Vec3 B_af;                 // the owner's gradient vector towards the node [m2]
-  double area_over_length;   // of the boundary bond's stiffness [m]
+  Index site = 0;           // the boundary face, index into Discretization::sites
+  Vec3 X;                   // reference position of the node [m]
+  Vec3 wall;                // reference position W_f of the prescribed point [m]
+  Vec3 N;                   // outward unit normal of the face
+  Vec3 area;                // outward area vector of the face [m2]
+  Mat3 D;                   // projection onto the constrained directions, [V 14]
+  double wall_share = 1.0;  // 1: node on the wall; 2: ghost behind it
+  Vec3 B_af;                // the owner's gradient vector towards the node [m2]
+  double area_over_length;  // of the boundary bond's stiffness [m]
 };
 
 /// One term of a boundary node's closure; `node` below the number of particles is a particle, else a boundary node.
@@ -73,6 +73,12 @@ struct ParticleConstraint {
   Mat3 D;
 };
 
+/// What a constrained boundary face exerts on its particle.
+enum class BoundaryForce {
+  potential,  // the derivative of the strain energy with respect to the particle's position
+  direct      // [V 42, 43]: prescribed branch vectors count as constants, and D P_a A_af is added as a reaction
+};
+
 /// Rows of the internal force when it is not the gradient of an energy ([V 42], quasi-static).
 struct DirectForce {
   std::vector<Vec3> B_ba;  // per bond [m2]
@@ -87,19 +93,20 @@ struct Discretization {
   std::vector<Vec3> X;         // reference positions of the particles [m]
   std::vector<double> volume;  // [m3]
   Bonds bonds;
-  std::vector<Vec3> B_aa;              // - sum_b B_ab - sum_f B_af [m2]
-  std::vector<BoundaryNode> nodes;     // sorted by owner; within one, fully prescribed nodes first
-  Csr<ClosureTerm> closure;            // one row per boundary node
-  std::optional<DirectForce> direct;   // set for quasi-static only
+  std::vector<Vec3> B_aa;           // - sum_b B_ab - sum_f B_af [m2]
+  std::vector<BoundaryNode> nodes;  // sorted by owner; within one, fully prescribed nodes first
+  Csr<ClosureTerm> closure;         // one row per boundary node
+  BoundaryForce boundary_force = BoundaryForce::potential;
+  std::optional<DirectForce> direct;  // set for quasi-static only
   std::vector<BoundarySite> sites;
-  Csr<LoadShare> load;                 // one row per site
+  Csr<LoadShare> load;                          // one row per site
   std::vector<ParticleConstraint> constraints;  // sorted by particle
-  double body_volume = 0.0;            // of the solid, for the identity sum V_a = V [m3]
+  double body_volume = 0.0;                     // of the solid, for the identity sum V_a = V [m3]
 
   Index particles() const { return static_cast<Index>(X.size()); }
 };
 
-/// Appends the particles, bonds and nodes of another body, moving its indices up.
+/// Appends the particles, bonds and nodes of another body of the same formulation, moving its indices up.
 void append(Discretization& all, Discretization body);
 
 /// The shortest bond between particles with a common face or between a particle and its ghost [m].

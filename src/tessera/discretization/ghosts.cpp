@@ -80,11 +80,13 @@ GhostNeighbour mirror_image(const BoundaryFace& f, const Vec3& X_a, double size)
   const Vec3 N = normalized(f.area);
   const double distance = dot(N, f.centroid - X_a);
   if (std::abs(distance) < smallest_distance * size)
-    throw GeometryError(fmt::format(
-        "particle {} at ({:g}, {:g}, {:g}) lies in the plane of one of its boundary faces, so it has no ghost there; move the "
-        "particle or use boundary = \"consistent\"",
-        f.owner, X_a.x, X_a.y, X_a.z));
-  // A negative distance (at a re-entrant edge) gives a ghost on the other side; the algebra of [V 6, 7] holds with L = 2 d.
+    throw GeometryError(
+        fmt::format("particle {} at ({:g}, {:g}, {:g}) lies in the plane of one of its boundary faces, so it has no "
+                    "ghost there; move the "
+                    "particle or use boundary = \"consistent\"",
+                    f.owner, X_a.x, X_a.y, X_a.z));
+  // A negative distance (at a re-entrant edge) gives a ghost on the other side; the algebra of [V 6, 7] holds with L =
+  // 2 d.
   return {2.0 * distance * N, (norm(f.area) / (2.0 * distance)) * (f.centroid - X_a)};
 }
 
@@ -129,6 +131,7 @@ class GhostDiscretization {
     add_stiffness();
     add_loads();
     d_.B_aa = diagonal_vectors(d_);
+    d_.boundary_force = BoundaryForce::direct;
     if (force == GhostForce::quasi_static) add_direct_force();
     return std::move(d_);
   }

@@ -89,6 +89,7 @@ void append(Discretization& all, Discretization body) {
   move_to_end(all.sites, body.sites);
   append_rows(all.load, body.load);
   move_to_end(all.constraints, body.constraints);
+  all.boundary_force = body.boundary_force;
   if (body.direct) {
     if (!all.direct) all.direct.emplace();
     move_to_end(all.direct->B_ba, body.direct->B_ba);

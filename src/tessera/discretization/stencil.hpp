@@ -15,8 +15,8 @@ struct StencilWeights {
 };
 
 /// The weights with the least sum of |w_c|^2 r_c^2, r_c = |y_c|, that satisfy sum w_c = 0 and sum w_c y_c = target.
-/// `y` are positions relative to the reference point [m], none of them zero. Directions in which the points do not extend
-/// are left to the residual.
+/// `y` are positions relative to the reference point [m], none of them zero. Directions in which the points do not
+/// extend are left to the residual.
 StencilWeights balanced_weights(std::span<const Vec3> y, const Vec3& target);
 
 /// The same without the condition sum w_c = 0.

@@ -9,14 +9,15 @@
 
 namespace tessera {
 
-/// Consistent face formulation (theory, "Consistent faces"): every face has one position c_f, exact for linear motion and
-/// the same seen from both sides, V_a F_a = sum_f c_f (x) A_f. `D` holds one projection per boundary face, [V 14].
+/// Consistent face formulation (theory, "Consistent faces"): every face has one position c_f, exact for linear motion
+/// and the same seen from both sides, V_a F_a = sum_f c_f (x) A_f. `D` holds one projection per boundary face, [V 14].
 /// Throws GeometryError that names the particles whose neighbours cannot carry a linear motion.
 Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D);
 
 /// What the forces of the ghost formulation derive from.
 enum class GhostForce {
-  variational,  // [V 43]: from the potential; momenta exact, patch test C not
+  variational,  // [V 43]: from the potential, and direct reactions at constrained faces; momenta exact, patch test C
+                // not
   quasi_static  // [V 42] with tractions and reactions: patch tests exact, angular momentum not
 };
 

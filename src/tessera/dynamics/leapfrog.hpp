@@ -25,8 +25,8 @@ class Leapfrog {
  public:
   Leapfrog(const System& system, const Loads& loads, double damping);
 
-  /// Turns velocities at the start into those half a step before. Call after the first evaluation of the forces, with the
-  /// loads' motion at the end of the first step. Constrained components start with their prescribed velocity.
+  /// Turns velocities at the start into those half a step before. Call after the first evaluation of the forces, with
+  /// the loads' motion at the end of the first step. Constrained components start with their prescribed velocity.
   void start(State& state, const Forces& forces, double dt) const;
 
   /// Fixes the motion of constrained particles over the next step and the forces that this needs. The loads' motion
@@ -50,8 +50,8 @@ class Leapfrog {
   const System& system_;
   const Loads& loads_;
   double damping_;
-  std::vector<Index> constraint_of_;    // of each particle, or -1; empty without constraints
-  std::vector<Vec3> next_velocity_;     // v+ of each constrained particle
+  std::vector<Index> constraint_of_;  // of each particle, or -1; empty without constraints
+  std::vector<Vec3> next_velocity_;   // v+ of each constrained particle
   std::vector<Vec3> reactions_;
 };
 

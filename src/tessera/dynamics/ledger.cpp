@@ -24,7 +24,8 @@ void Ledger::remember(const State& state, const Forces& forces, const Leapfrog& 
   external_work_ += advance(tractions_, std::move(force), std::move(place), before);
 
   // Reactions are forces on the tool, so the tool's work on the body has the opposite sign.
-  external_work_ -= advance(walls_, forces.reactions(), std::vector<Vec3>(walls.begin(), walls.begin() + system_.boundary_nodes()), before);
+  external_work_ -= advance(walls_, forces.reactions(),
+                            std::vector<Vec3>(walls.begin(), walls.begin() + system_.boundary_nodes()), before);
 
   std::vector<Vec3> held;
   for (const ParticleConstraint& c : system_.d.constraints)
@@ -59,8 +60,8 @@ Motion& Motion::operator+=(const Motion& o) {
   return *this;
 }
 
-Motion total_motion(const System& system, const State& state, const Forces& forces, const Leapfrog& leapfrog, StepPair dt,
-                    Index first, Index last) {
+Motion total_motion(const System& system, const State& state, const Forces& forces, const Leapfrog& leapfrog,
+                    StepPair dt, Index first, Index last) {
   return parallel::sum_ranges<Motion>(first, last, [&](std::int64_t begin, std::int64_t end) {
     Motion sum;
     for (auto a = static_cast<Index>(begin); a < end; ++a) {
@@ -72,7 +73,7 @@ Motion total_motion(const System& system, const State& state, const Forces& forc
   });
 }
 
-double gravity_work(const System& system, const State& state, const std::vector<Double4>& x0, const Vec3& gravity) {
+double gravity_work(const System& system, const State& state, const Field<Double4>& x0, const Vec3& gravity) {
   if (gravity == Vec3{}) return 0.0;
   return parallel::sum<double>(system.particles(), [&](std::int64_t a) {
     const auto k = static_cast<std::size_t>(a);

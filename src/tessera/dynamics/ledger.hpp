@@ -52,10 +52,10 @@ struct Motion {
 };
 
 /// Sums over all particles, or over [first, last).
-Motion total_motion(const System& system, const State& state, const Forces& forces, const Leapfrog& leapfrog, StepPair dt,
-                    Index first, Index last);
+Motion total_motion(const System& system, const State& state, const Forces& forces, const Leapfrog& leapfrog,
+                    StepPair dt, Index first, Index last);
 
 /// Work of gravity since the reference positions `x0` [J].
-double gravity_work(const System& system, const State& state, const std::vector<Double4>& x0, const Vec3& gravity);
+double gravity_work(const System& system, const State& state, const Field<Double4>& x0, const Vec3& gravity);
 
 }  // namespace tessera

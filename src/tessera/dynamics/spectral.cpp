@@ -11,28 +11,27 @@ namespace tessera {
 
 namespace {
 
-using Field = std::vector<Double4>;
+using Vectors = Field<Double4>;
 
-double inner(const Field& a, const Field& b) {
+double inner(const Vectors& a, const Vectors& b) {
   return parallel::sum<double>(static_cast<std::int64_t>(a.size()), [&](std::int64_t i) {
     return dot3(a[static_cast<std::size_t>(i)], b[static_cast<std::size_t>(i)]);
   });
 }
 
-void scale(Field& a, double s) {
+void scale(Vectors& a, double s) {
   parallel::for_each(static_cast<std::int64_t>(a.size()), [&](std::int64_t i) { a[static_cast<std::size_t>(i)] *= s; });
 }
 
 /// a -= s b
-void subtract(Field& a, double s, const Field& b) {
-  parallel::for_each(static_cast<std::int64_t>(a.size()), [&](std::int64_t i) {
-    a[static_cast<std::size_t>(i)] -= s * b[static_cast<std::size_t>(i)];
-  });
+void subtract(Vectors& a, double s, const Vectors& b) {
+  parallel::for_each(static_cast<std::int64_t>(a.size()),
+                     [&](std::int64_t i) { a[static_cast<std::size_t>(i)] -= s * b[static_cast<std::size_t>(i)]; });
 }
 
 /// A reproducible vector without structure: every mode takes part.
-Field rough_vector(std::size_t n) {
-  Field v(n);
+Vectors rough_vector(std::size_t n) {
+  Vectors v(n);
   std::uint64_t state = 0x9E3779B97F4A7C15ULL;
   const auto next = [&state] {
     state ^= state << 13U;
@@ -60,15 +59,15 @@ class LinearisedForces {
 
   std::size_t size() const { return s_.d.X.size(); }
 
-  void hold(Field& w) const {
+  void hold(Vectors& w) const {
     for (const ParticleConstraint& c : s_.d.constraints) {
       Double4& v = w[static_cast<std::size_t>(c.particle)];
       v = to_kernel(to_vec3(v) - c.D * to_vec3(v));
     }
   }
 
-  Field operator()(const Field& w) {
-    Field u(w.size());
+  Vectors operator()(const Vectors& w) {
+    Vectors u(w.size());
     double largest = 0.0;
     for (std::size_t a = 0; a < w.size(); ++a) {
       u[a] = (1.0 / std::sqrt(s_.mass[a])) * w[a];
@@ -87,10 +86,10 @@ class LinearisedForces {
   const System& s_;
   Forces forces_;
   State moved_;
-  const Field x_;
+  const Vectors x_;
   ExternalAction action_;
   double amplitude_;
-  Field f_;
+  Vectors f_;
 };
 
 namespace {
@@ -112,12 +111,12 @@ constexpr double tolerance = 0.01;
 
 /// Three-term Lanczos; the bound is the Ritz value plus its residual.
 double SpectralEstimator::lanczos(LinearisedForces& K) {
-  Field q = vector_, previous(q.size(), Double4{});
-  Field best = q;  // a sum of the basis, rich in the highest modes, for the next start
+  Vectors q = vector_, previous(q.size(), Double4{});
+  Vectors best = q;  // a sum of the basis, rich in the highest modes, for the next start
   std::vector<double> alpha, beta;
   double bound = 0.0;
   for (int i = 0; i < most_iterations; ++i) {
-    Field w = K(q);
+    Vectors w = K(q);
     alpha.push_back(inner(w, q));
     subtract(w, alpha.back(), q);
     if (i > 0) subtract(w, beta.back(), previous);
@@ -138,7 +137,7 @@ double SpectralEstimator::lanczos(LinearisedForces& K) {
 double SpectralEstimator::power_iteration(LinearisedForces& K) {
   double growth = 0.0;
   for (int i = 0; i < 2 * most_iterations; ++i) {
-    Field w = K(vector_);
+    Vectors w = K(vector_);
     growth = std::sqrt(inner(w, w));
     scale(w, 1.0 / growth);
     vector_ = std::move(w);

@@ -8,14 +8,15 @@
 
 namespace tessera {
 
-/// Largest angular frequency of a system about a deformed state, from the linearised elastic forces. Keeps its last vector, so a
-/// later estimate of a similar state starts close to the answer.
+/// Largest angular frequency of a system about a deformed state, from the linearised elastic forces. Keeps its last
+/// vector, so a later estimate of a similar state starts close to the answer.
 class SpectralEstimator {
  public:
   explicit SpectralEstimator(const System& system) : system_(system) {}
 
-  /// omega_max [1/s]: a bound from above up to the accuracy of the iteration (about one per cent). `walls` are the boundary nodes'
-  /// prescribed points; `L` a length over which the forces are nearly linear, such as the shortest bond [m].
+  /// omega_max [1/s]: a bound from above up to the accuracy of the iteration (about one per cent). `walls` are the
+  /// boundary nodes' prescribed points; `L` a length over which the forces are nearly linear, such as the shortest bond
+  /// [m].
   double largest_frequency(const State& state, std::span<const Vec3> walls, double L);
 
  private:
@@ -23,7 +24,7 @@ class SpectralEstimator {
   double power_iteration(class LinearisedForces& K);
 
   const System& system_;
-  std::vector<Double4> vector_;
+  Field<Double4> vector_;
 };
 
 }  // namespace tessera

@@ -55,9 +55,10 @@ StepControl::StepControl(const TimeSpec& spec, const System& system, const State
   }
   if (const auto* fixed = std::get_if<FixedStep>(&spec.step)) {
     if (fixed->dt > limit_ && !fixed->force)
-      throw InputError(spec.origin, fmt::format("the step of {:g} s is above the spectral limit of {:g} s; take a smaller one, "
-                                                "\"auto\" or \"auto-spectral\" (or force = true)",
-                                                fixed->dt, limit_));
+      throw InputError(spec.origin,
+                       fmt::format("the step of {:g} s is above the spectral limit of {:g} s; take a smaller one, "
+                                   "\"auto\" or \"auto-spectral\" (or force = true)",
+                                   fixed->dt, limit_));
     memory_.dt = fixed->dt;
   } else if (spec.end > 0.0) {
     memory_.dt = divide_evenly(spec.end, memory_.dt);
@@ -69,7 +70,8 @@ void StepControl::estimate(std::int64_t step, const State& state, std::span<cons
   const double limit = omega > 0.0 ? stable_step(system_, omega) : std::numeric_limits<double>::infinity();
   if (limit_ > 0.0) {
     const bool changed = std::abs(limit - limit_) > watchful_change * limit_;
-    memory_.interval = std::clamp(changed ? memory_.interval / 2 : memory_.interval * 2, shortest_interval, longest_interval);
+    memory_.interval =
+        std::clamp(changed ? memory_.interval / 2 : memory_.interval * 2, shortest_interval, longest_interval);
   }
   limit_ = memory_.limit = limit;
   memory_.estimated_at = step;

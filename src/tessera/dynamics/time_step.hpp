@@ -8,8 +8,8 @@ namespace tessera {
 /// min(L_ab / c_p) over all bonds, ghosts included [s].
 double shortest_travel_time(const System& system);
 
-/// The largest step for which the leapfrog with lagged viscosity is stable, 2/omega (sqrt(1 + z^2) - z) with z = c1 h omega / (2 c_p),
-/// the largest over the particles [s].
+/// The largest step for which the leapfrog with lagged viscosity is stable, 2/omega (sqrt(1 + z^2) - z) with z = c1 h
+/// omega / (2 c_p), the largest over the particles [s].
 double stable_step(const System& system, double omega);
 
 /// Chooses the step of a run and, for auto-spectral, chooses it again as the body deforms.

@@ -11,8 +11,8 @@ struct BondResponse {
   Vec3 dU_dy;           // [N], [D 58]
 };
 
-/// Linearly elastic bond with normal and tangential stiffness, [D 56-58], [V 49]: x is the current branch vector, y = F_ab X_ab
-/// its affine image, and normal means along x.
+/// Linearly elastic bond with normal and tangential stiffness, [D 56-58], [V 49]: x is the current branch vector, y =
+/// F_ab X_ab its affine image, and normal means along x.
 inline BondResponse bond_response(double Kn, double Kt, const Vec3& x, const Vec3& y) {
   const Vec3 u = x - y;
   const double p = dot(u, x) / norm2(x);

@@ -18,7 +18,8 @@ inline ViscosityLaw viscosity_law(const Material& m, double h) {
   return {m.density * m.viscosity.linear * m.wave_speed() * h, m.density * m.viscosity.quadratic * h * h};
 }
 
-/// Viscous first Piola-Kirchhoff stress J sigma F^-T, [D 61, 62], for the rate F_dot [1/s]. J F^-T is the cofactor of F.
+/// Viscous first Piola-Kirchhoff stress J sigma F^-T, [D 61, 62], for the rate F_dot [1/s]. J F^-T is the cofactor of
+/// F.
 inline Mat3 viscous_stress(const ViscosityLaw& law, const Mat3& F, const Mat3& F_dot) {
   const Mat3 cof = cofactor(F);
   const Mat3 l = (1.0 / determinant(F)) * (F_dot * transpose(cof));

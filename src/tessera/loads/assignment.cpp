@@ -22,10 +22,14 @@ Mat3 projection(const BoundaryCondition& c, const Vec3& N) {
   if (const auto* u = std::get_if<PrescribedDisplacement>(&c.kind)) return mask(u->components);
   if (const auto* v = std::get_if<PrescribedVelocity>(&c.kind)) return mask(v->components);
   switch (std::get<Condition>(c.kind)) {
-    case Condition::fixed: return identity();
-    case Condition::symmetric: return outer(N, N);
-    case Condition::antisymmetric: return identity() - outer(N, N);
-    case Condition::free: break;
+    case Condition::fixed:
+      return identity();
+    case Condition::symmetric:
+      return outer(N, N);
+    case Condition::antisymmetric:
+      return identity() - outer(N, N);
+    case Condition::free:
+      break;
   }
   return Mat3{};
 }
@@ -34,17 +38,17 @@ std::string place(const Vec3& X) { return fmt::format("({:g}, {:g}, {:g})", X.x,
 
 [[noreturn]] void report_conflict(const BoundaryCondition& later, const BoundaryCondition& earlier, const char* what,
                                   const Vec3& X) {
-  throw InputError(later.origin, fmt::format("constrains the same component of the {} at {} as the [[boundary]] entry at line {}; "
-                                             "let their `where` exclude each other or leave the component \"free\" in one",
-                                             what, place(X), earlier.origin.line));
+  throw InputError(later.origin,
+                   fmt::format("constrains the same component of the {} at {} as the [[boundary]] entry at line {}; "
+                               "let their `where` exclude each other or leave the component \"free\" in one",
+                               what, place(X), earlier.origin.line));
 }
 
 [[noreturn]] void report_nothing(const BoundaryCondition& c, const Surface& surface, const char* what) {
   const std::string names = fmt::format("{}", fmt::join(surface.known_names, ", "));
-  throw InputError(c.where.origin,
-                   fmt::format("takes no {} of body \"{}\", which reaches from {} to {}{}", what, surface.body,
-                               place(surface.lower), place(surface.upper),
-                               names.empty() ? std::string() : "; its sides are " + names));
+  throw InputError(c.where.origin, fmt::format("takes no {} of body \"{}\", which reaches from {} to {}{}", what,
+                                               surface.body, place(surface.lower), place(surface.upper),
+                                               names.empty() ? std::string() : "; its sides are " + names));
 }
 
 Selection compile(const BoundaryCondition& c, const Surface& surface) {
@@ -97,12 +101,14 @@ std::vector<LoadedPiece> load_pieces(const Surface& surface, std::span<const Bou
 
 namespace {
 
-/// Displacement that an entry prescribes at time t, as far as a comparison of entries needs it (velocities: from the start).
+/// Displacement that an entry prescribes at time t, as far as a comparison of entries needs it (velocities: from the
+/// start).
 Vec3 displacement_at(const BoundaryCondition& c, double t, const Vec3& X) {
   Vec3 u;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (const auto* p = std::get_if<PrescribedDisplacement>(&c.kind); p && p->components[k]) u[i] = (*p->components[k])(t, X);
+    if (const auto* p = std::get_if<PrescribedDisplacement>(&c.kind); p && p->components[k])
+      u[i] = (*p->components[k])(t, X);
     if (const auto* v = std::get_if<PrescribedVelocity>(&c.kind); v && v->components[k])
       u[i] = t * (*v->components[k])(0.5 * t, X);
   }

@@ -15,8 +15,8 @@ struct MotionPart {
   Mat3 M;
 };
 
-/// What is prescribed at one point: the projection D onto the constrained directions, [V 14], and from whom the motion comes,
-/// D u_bar = sum M u_condition.
+/// What is prescribed at one point: the projection D onto the constrained directions, [V 14], and from whom the motion
+/// comes, D u_bar = sum M u_condition.
 struct PointConstraint {
   Mat3 D;
   std::vector<MotionPart> parts;
@@ -28,13 +28,14 @@ struct LoadedPiece {
   const BoundaryCondition* condition = nullptr;
 };
 
-/// Constraints of the faces of a voronoi body, one per piece. Throws InputError when an entry takes nothing, and when two entries
-/// constrain the same component of one face (names both).
-std::vector<PointConstraint> constrain_faces(const Surface& surface, std::span<const BoundaryCondition* const> conditions);
+/// Constraints of the faces of a voronoi body, one per piece. Throws InputError when an entry takes nothing, and when
+/// two entries constrain the same component of one face (names both).
+std::vector<PointConstraint> constrain_faces(const Surface& surface,
+                                             std::span<const BoundaryCondition* const> conditions);
 
-/// Constraints of the particles of a delaunay body, one per particle (zero D inside and where nothing is said). Entries may overlap
-/// at edges and corners as long as they prescribe the same motion at the times 0, 0.37 and 1 of `end`; otherwise
-/// InputError that names both. `X` are the particles' material positions.
+/// Constraints of the particles of a delaunay body, one per particle (zero D inside and where nothing is said). Entries
+/// may overlap at edges and corners as long as they prescribe the same motion at the times 0, 0.37 and 1 of `end`;
+/// otherwise InputError that names both. `X` are the particles' material positions.
 std::vector<PointConstraint> constrain_particles(const Surface& surface, std::span<const Vec3> X,
                                                  std::span<const BoundaryCondition* const> conditions, double end);
 

@@ -11,7 +11,8 @@ class Evaluator {
  public:
   Evaluator(const PartialFormulaVec3& components, double t) : components_(components), t_(t) {
     for (std::size_t i = 0; i < 3; ++i)
-      if (components[i] && !components[i]->depends_on_position()) everywhere_[static_cast<int>(i)] = (*components[i])(t, Vec3{});
+      if (components[i] && !components[i]->depends_on_position())
+        everywhere_[static_cast<int>(i)] = (*components[i])(t, Vec3{});
   }
 
   Vec3 at(const Vec3& X) const {
@@ -34,8 +35,8 @@ PrescribedMotion::PrescribedMotion(std::vector<Vec3> X, std::vector<PointConstra
     : X_(std::move(X)), positions_(X_) {
   for (std::size_t i = 0; i < constraints.size(); ++i)
     for (const MotionPart& part : constraints[i].parts) {
-      auto group = std::find_if(groups_.begin(), groups_.end(),
-                                [&](const Group& g) { return g.condition == part.condition; });
+      auto group =
+          std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return g.condition == part.condition; });
       if (group == groups_.end()) group = groups_.insert(groups_.end(), {part.condition, {}, 0});
       group->parts.push_back({i, part.M});
     }

@@ -11,8 +11,8 @@ namespace tessera {
 /// Points whose motion is prescribed: the walls of boundary nodes (voronoi) or particles (delaunay).
 class PrescribedMotion {
  public:
-  /// `X` are the points' reference positions, `initial` their displacements at time zero, from which prescribed velocities
-  /// start [m].
+  /// `X` are the points' reference positions, `initial` their displacements at time zero, from which prescribed
+  /// velocities start [m].
   PrescribedMotion(std::vector<Vec3> X, std::vector<PointConstraint> constraints, std::span<const Vec3> initial);
   PrescribedMotion() = default;
 

@@ -1,5 +1,7 @@
 #include "tessera/mechanics/boundary.hpp"
 
+#include <vector>
+
 #include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
@@ -83,6 +85,13 @@ void drain_boundary_nodes(const System& s, Double4* R, Double4* f, std::span<Vec
   for_each_owner(s, [&](Index g) {
     reactions[static_cast<std::size_t>(g)] += node(s, g).wall_share * (node(s, g).D * to_vec3(R[g]));
   });
+}
+
+void drain_with_held_branches(const System& s, const Columns* P, Double4* R, Double4* f) {
+  for_each_owner(s, [&](Index g) { R[g] = -apply(P[node(s, g).owner], node(s, g).B_af); });
+  std::vector<Vec3> to_walls(s.nodes.size());
+  drain_boundary_nodes(s, R, f, to_walls);
+  for_each_owner(s, [&](Index g) { f[node(s, g).owner] += to_kernel(to_walls[static_cast<std::size_t>(g)]); });
 }
 
 void add_direct_reactions(const System& s, const Columns* P, Double4* f, std::span<Vec3> reactions) {

@@ -13,9 +13,9 @@ namespace tessera {
 
 /// What acts on a system from outside at one time.
 struct ExternalAction {
-  std::span<const Vec3> walls;             // current position W_f of each boundary node's prescribed point [m]
-  std::span<const NodalForce> tractions;   // [N]; a particle may occur several times
-  Vec3 gravity;                            // [m/s2]
+  std::span<const Vec3> walls;            // current position W_f of each boundary node's prescribed point [m]
+  std::span<const NodalForce> tractions;  // [N]; a particle may occur several times
+  Vec3 gravity;                           // [m/s2]
 };
 
 /// Forces as the gradient of the potential: fill, strain, stress, force, drain. One object is kept and reused.
@@ -23,20 +23,20 @@ class Forces {
  public:
   explicit Forces(const System& system);
 
-  /// Evaluates everything at the state's positions; the state's boundary nodes are filled on the way. `dt` is the time since the
-  /// last evaluation, from which viscous stresses take their rate; zero: no rate is known, no viscous stress.
+  /// Evaluates everything at the state's positions; the state's boundary nodes are filled on the way. `dt` is the time
+  /// since the last evaluation, from which viscous stresses take their rate; zero: no rate is known, no viscous stress.
   void evaluate(State& state, const ExternalAction& action, double dt);
 
-  const std::vector<Double4>& total() const { return f_; }             // [N], reactions on constrained particles left out
-  const std::vector<Columns>& deformation_gradient() const { return F_; }
-  const std::vector<Vec3>& reactions() const { return reactions_; }    // force on what prescribes each node [N]
-  const StressSums& sums() const { return sums_; }                     // of the last evaluation
+  const Field<Double4>& total() const { return f_; }  // [N], reactions on constrained particles left out
+  const Field<Columns>& deformation_gradient() const { return F_; }
+  const std::vector<Vec3>& reactions() const { return reactions_; }  // force on what prescribes each node [N]
+  const StressSums& sums() const { return sums_; }                   // of the last evaluation
 
-  /// P_a of every particle with its viscous part [Pa], and what it exerts on the particles [N] (reactions of boundary faces
-  /// included). For output, at the state of the last evaluation.
+  /// P_a of every particle with its viscous part [Pa], and what it exerts on the particles [N] (reactions of boundary
+  /// faces included). For output, at the state of the last evaluation.
   struct Internal {
-    std::vector<Columns> P;
-    std::vector<Double4> force;
+    Field<Columns> P;
+    Field<Double4> force;
   };
   Internal internal(const State& state) const;
 
@@ -49,11 +49,12 @@ class Forces {
   void stress(const State& state, double dt);
   void drain();
   void add_external(const ExternalAction& action);
-  bool split() const { return system_.d.direct.has_value(); }
+  /// Boundary nodes or rows treat the elastic stress and the contact stress differently ([V 42, 43]).
+  bool split() const { return !P_.empty(); }
 
   const System& system_;
-  std::vector<Columns> F_, T_, P_;  // P_ only when the internal force has rows of its own (quasi-static)
-  std::vector<Double4> f_, R_;
+  Field<Columns> F_, T_, P_;  // P_ only when split()
+  Field<Double4> f_, R_;
   std::vector<Vec3> reactions_;
   ViscousMemory viscous_;
   StressSums sums_;

@@ -9,8 +9,8 @@ namespace tessera {
 
 /// What changes during a run. Velocities belong to the middle of the step before the positions' time.
 struct State {
-  std::vector<Double4> x;  // positions of particles, then of boundary nodes [m]
-  std::vector<Double4> v;  // velocities of particles [m/s]
+  Field<Double4> x;  // positions of particles, then of boundary nodes [m]
+  Field<Double4> v;  // velocities of particles [m/s]
 };
 
 /// Particles and nodes in their reference positions, at rest.

@@ -6,8 +6,8 @@
 #include "tessera/laws/neo_hookean.hpp"
 
 // One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__OPTIMIZE_SIZE__) && \
-    defined(__OPTIMIZE__)
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__OPTIMIZE_SIZE__) && defined(__OPTIMIZE__)
 #define TESSERA_KERNEL __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
 #else
 #define TESSERA_KERNEL
@@ -73,8 +73,8 @@ inline BondSums sum_bonds(const System& s, const Double4* x, const Columns* F, d
     const double Kn = stiffness_n * area_over_length[i], Kt = stiffness_t * area_over_length[i];
     const double ux = dot3(u, x_ab), p = ux / dot3(x_ab, x_ab);
     const Double4 u_n = p * x_ab, u_t = u - u_n;
-    const Double4 elastic = Kn * u_n + Kt * u_t;             // -dU/dy, [D 58]
-    sums.force += elastic + ((Kn - Kt) * p) * u_t;           // dU/dx, [D 57]
+    const Double4 elastic = Kn * u_n + Kt * u_t;    // -dU/dy, [D 58]
+    sums.force += elastic + ((Kn - Kt) * p) * u_t;  // dU/dx, [D 57]
     add_outer(sums.moment, -elastic, X);
     sums.energy += 0.25 * (Kn * p * ux + Kt * dot3(u_t, u_t));
   }
@@ -121,8 +121,8 @@ inline StressSums stress_range(const StressSweep& w, const Law& law, double stif
   return sums;
 }
 
-TESSERA_KERNEL StressSums stress_of(const StressSweep& w, const NeoHookean& law, double stiffness_n,
-                                    double stiffness_t, Index begin, Index end) {
+TESSERA_KERNEL StressSums stress_of(const StressSweep& w, const NeoHookean& law, double stiffness_n, double stiffness_t,
+                                    Index begin, Index end) {
   return stress_range(w, law, stiffness_n, stiffness_t, begin, end);
 }
 

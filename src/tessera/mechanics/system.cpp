@@ -58,8 +58,7 @@ void transpose_closure(System& s) {
     ++s.returned.offset.back();
   }
   for (Target& t : to_nodes) t.node -= s.particles();
-  const Csr<Target> rows =
-      group_by_row<Target>(s.boundary_nodes(), to_nodes, [](const Target& t) { return t.node; });
+  const Csr<Target> rows = group_by_row<Target>(s.boundary_nodes(), to_nodes, [](const Target& t) { return t.node; });
   s.returned_to_node.offset = rows.offset;
   for (const Target& t : rows.value) s.returned_to_node.value.push_back(t.term);
 }

@@ -38,11 +38,11 @@ struct System {
   std::vector<double> mass;           // [kg]
 
   std::vector<NodeMechanics> nodes;
-  std::vector<Index> owners;          // particles that own boundary nodes, ascending
-  std::vector<Index> first_node;      // of each owner; one more entry at the end
-  std::vector<Index> receivers;       // particles that a closure names, ascending
-  Csr<ReturnTerm> returned;           // the transposed closure: one row per receiver
-  Csr<ReturnTerm> returned_to_node;   // the same for nodes that other nodes follow: one row per boundary node
+  std::vector<Index> owners;         // particles that own boundary nodes, ascending
+  std::vector<Index> first_node;     // of each owner; one more entry at the end
+  std::vector<Index> receivers;      // particles that a closure names, ascending
+  Csr<ReturnTerm> returned;          // the transposed closure: one row per receiver
+  Csr<ReturnTerm> returned_to_node;  // the same for nodes that other nodes follow: one row per boundary node
 
   std::vector<ViscosityLaw> viscosity;  // per particle; empty when no material is viscous
 
@@ -50,7 +50,8 @@ struct System {
   Index boundary_nodes() const { return static_cast<Index>(d.nodes.size()); }
 };
 
-/// Puts a system together. `material_of` gives the material of each particle; equal ones must be consecutive within a body.
+/// Puts a system together. `material_of` gives the material of each particle; equal ones must be consecutive within a
+/// body.
 System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of);
 
 }  // namespace tessera

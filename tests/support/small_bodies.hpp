@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tessera/discretization/delaunay.hpp"
+#include "tessera/discretization/rows.hpp"
+#include "tessera/discretization/voronoi.hpp"
+#include "tessera/geometry/particles.hpp"
+#include "tessera/mechanics/forces.hpp"
+#include "tessera/mechanics/system.hpp"
+#include "tessera/tessellation/cells.hpp"
+#include "tessera/tessellation/tetrahedra.hpp"
+
+namespace tessera::test {
+
+enum class Method { delaunay, consistent, variational, quasi_static };
+
+inline std::string name_of(Method m) {
+  switch (m) {
+    case Method::delaunay:
+      return "delaunay";
+    case Method::consistent:
+      return "consistent";
+    case Method::variational:
+      return "variational";
+    case Method::quasi_static:
+      return "quasi_static";
+  }
+  return "";
+}
+
+inline Solid box(const Vec3& upper) {
+  Shape shape;
+  shape.kind = BoxShape{{0, 0, 0}, upper};
+  return build_solid(shape);
+}
+
+/// The L-block of [V], section 6.3, as a polygon.
+inline Solid l_block() {
+  Shape shape;
+  shape.kind = PolygonShape{{{0, 0}, {6, 0}, {6, 3}, {3, 3}, {3, 10}, {0, 10}}, 0.0, 3.0};
+  return build_solid(shape);
+}
+
+inline PointSet lattice(const Solid& solid, std::array<int, 3> counts, double jitter, std::uint64_t seed, Placement p) {
+  LatticeSpec spec;
+  spec.counts = counts;
+  spec.jitter = jitter;
+  spec.seed = seed;
+  return place_particles({spec, {}}, solid, p);
+}
+
+/// The projection of each boundary face as a function of its centroid and normal.
+using Constrain = std::function<Mat3(const Vec3& centroid, const Vec3& normal)>;
+
+/// A box or L-block discretized; for delaunay `constrain` acts on particles, with the normal zero.
+inline Discretization discretize(Method method, const Solid& solid, std::array<int, 3> counts, double jitter,
+                                 std::uint64_t seed, const Constrain& constrain) {
+  if (method == Method::delaunay) {
+    for (int& n : counts) ++n;
+    const PointSet points = lattice(solid, counts, jitter, seed, Placement::vertices);
+    const TetrahedralMesh mesh = tetrahedralize(points, solid, Tetrahedralization::automatic);
+    std::vector<ParticleConstraint> constraints;
+    for (Index a = 0; a < static_cast<Index>(mesh.points.size()); ++a) {
+      const Mat3 D = constrain(mesh.points[static_cast<std::size_t>(a)], Vec3{});
+      if (!is_zero(D)) constraints.push_back({a, D});
+    }
+    return discretize_delaunay(mesh, constraints);
+  }
+  const PointSet points = lattice(solid, counts, jitter, seed, Placement::cell_centres);
+  const Cells cells = voronoi_cells(points.points, solid);
+  std::vector<Mat3> D;
+  for (const BoundaryFace& f : cells.boundary) D.push_back(constrain(f.centroid, normalized(f.area)));
+  switch (method) {
+    case Method::consistent:
+      return discretize_consistent(points.points, cells, D);
+    case Method::variational:
+      return discretize_ghosts(points.points, cells, D, GhostForce::variational);
+    default:
+      return discretize_ghosts(points.points, cells, D, GhostForce::quasi_static);
+  }
+}
+
+inline Mat3 nothing(const Vec3&, const Vec3&) { return {}; }
+inline Mat3 everything(const Vec3&, const Vec3&) { return identity(); }
+
+/// Symmetric, antisymmetric, component-wise, fixed and free faces that meet at edges and corners of a unit box.
+inline Mat3 mixed(const Vec3& C, const Vec3& N) {
+  if (C.x < 1e-9) return outer(N, N);
+  if (C.y < 1e-9) return identity() - outer(N, N);
+  if (C.z < 1e-9) return identity();
+  if (C.x > 1.0 - 1e-9) return diagonal(0, 1, 0);
+  return {};
+}
+
+inline Material rubber(double young = 1e6, double poisson = 0.3, double density = 1000.0) {
+  Material m;
+  m.name = "rubber";
+  m.young = young;
+  m.poisson = poisson;
+  m.density = density;
+  m.law = NeoHookean::from_young_poisson(young, poisson);
+  return m;
+}
+
+inline System system_of(Discretization d, const Material& m) {
+  const std::vector<Index> material(d.X.size(), 0);
+  return make_system(std::move(d), {m}, material);
+}
+
+inline std::vector<Vec3> walls_of(const System& s, const std::function<Vec3(const Vec3&)>& motion) {
+  std::vector<Vec3> walls;
+  for (const BoundaryNode& f : s.d.nodes) walls.push_back(motion(f.wall));
+  return walls;
+}
+
+inline void move(State& state, const System& s, const std::function<Vec3(const Vec3&)>& motion) {
+  for (std::size_t a = 0; a < s.d.X.size(); ++a) state.x[a] = to_kernel(motion(s.d.X[a]));
+}
+
+/// A smooth, strongly nonlinear motion for tests of forces.
+inline Vec3 wavy(const Vec3& X) {
+  return X + Vec3{0.1 * std::sin(2.0 * X.y) + 0.05 * X.x * X.x, 0.08 * std::cos(3.0 * X.x) * X.z,
+                  -0.07 * X.x * X.y + 0.04 * X.z};
+}
+
+}  // namespace tessera::test

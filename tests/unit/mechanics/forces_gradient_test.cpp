@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include "support/small_bodies.hpp"
+
+namespace tessera::test {
+namespace {
+
+double potential(const System& s, State state, const std::vector<Vec3>& walls) {
+  Forces forces(s);
+  forces.evaluate(state, {walls, {}, {}}, 0.0);
+  return forces.sums().internal + forces.sums().contact;
+}
+
+struct Variant {
+  Method method;
+  Constrain constrain;
+  std::string name;
+};
+
+class ForcesFromPotential : public testing::TestWithParam<Variant> {};
+
+/// Forces are minus the derivative of internal and contact energy, with mixed conditions at edges and corners.
+TEST_P(ForcesFromPotential, AgreeWithCentralDifferences) {
+  const System s =
+      system_of(discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain), rubber());
+  const std::vector<Vec3> walls = walls_of(s, wavy);
+  State state = reference_state(s);
+  move(state, s, wavy);
+  Forces forces(s);
+  forces.evaluate(state, {walls, {}, {}}, 0.0);
+  double scale = 0.0;
+  for (Index a = 0; a < s.particles(); ++a)
+    scale = std::max(scale, norm(to_vec3(forces.total()[static_cast<std::size_t>(a)])));
+
+  const double h = 1e-5;
+  for (Index a = 0; a < s.particles(); ++a)
+    for (int i = 0; i < 3; ++i) {
+      State plus = state, minus = state;
+      plus.x[static_cast<std::size_t>(a)][i] += h;
+      minus.x[static_cast<std::size_t>(a)][i] -= h;
+      const double slope = (potential(s, plus, walls) - potential(s, minus, walls)) / (2.0 * h);
+      EXPECT_NEAR(forces.total()[static_cast<std::size_t>(a)][i], -slope, 1e-7 * scale) << "particle " << a;
+    }
+}
+
+/// The reaction on what holds a node is minus the derivative with respect to the wall's position.
+TEST_P(ForcesFromPotential, ReactionsAreDerivativesWithRespectToWalls) {
+  const System s =
+      system_of(discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain), rubber());
+  const std::vector<Vec3> walls = walls_of(s, wavy);
+  State state = reference_state(s);
+  move(state, s, wavy);
+  Forces forces(s);
+  forces.evaluate(state, {walls, {}, {}}, 0.0);
+  const double h = 1e-5;
+  for (std::size_t f = 0; f < walls.size(); f += 3)
+    for (int i = 0; i < 3; ++i) {
+      std::vector<Vec3> plus = walls, minus = walls;
+      plus[f][i] += h;
+      minus[f][i] -= h;
+      const double slope = (potential(s, state, plus) - potential(s, state, minus)) / (2.0 * h);
+      EXPECT_NEAR(forces.reactions()[f][i], -slope, 1e-2) << "node " << f;
+    }
+}
+
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
+  for (Method m : {Method::delaunay, Method::consistent}) {
+    all.push_back({m, nothing, name_of(m) + "_free"});
+    all.push_back({m, mixed, name_of(m) + "_mixed"});
+    all.push_back({m, everything, name_of(m) + "_held"});
+  }
+  all.push_back({Method::variational, nothing, "variational_free"});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(AllFormulations, ForcesFromPotential, testing::ValuesIn(variants()),
+                         [](const auto& param) { return param.param.name; });
+
+class VariationalGhosts : public testing::TestWithParam<Variant> {};
+
+/// [V 43] and [V 46] with constraints: the contact force is the full derivative, the internal one is taken with
+/// prescribed branch vectors held constant (the walls move with the particle), and D P_a A_ab is added as a reaction.
+TEST_P(VariationalGhosts, InternalForceHoldsPrescribedBranches) {
+  const System s =
+      system_of(discretize(Method::variational, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain), rubber());
+  const std::vector<Vec3> walls = walls_of(s, wavy);
+  State state = reference_state(s);
+  move(state, s, wavy);
+  Forces forces(s);
+  forces.evaluate(state, {walls, {}, {}}, 0.0);
+  const Forces::Internal internal = forces.internal(state);
+  const auto energies = [&](const State& at, const std::vector<Vec3>& w) {
+    State copy = at;
+    Forces work(s);
+    work.evaluate(copy, {w, {}, {}}, 0.0);
+    return work.sums();
+  };
+  const double h = 1e-5;
+  for (Index a = 0; a < s.particles(); ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    Vec3 reaction;
+    for (const BoundaryNode& f : s.d.nodes)
+      if (f.owner == a) reaction += f.D * (to_mat3(internal.P[k]) * f.area);
+    for (int i = 0; i < 3; ++i) {
+      State plus = state, minus = state;
+      plus.x[k][i] += h;
+      minus.x[k][i] -= h;
+      std::vector<Vec3> walls_plus = walls, walls_minus = walls;
+      for (std::size_t f = 0; f < walls.size(); ++f)
+        if (s.d.nodes[f].owner == a) walls_plus[f][i] += h, walls_minus[f][i] -= h;
+      const double contact = (energies(plus, walls).contact - energies(minus, walls).contact) / (2.0 * h);
+      const double held = (energies(plus, walls_plus).internal - energies(minus, walls_minus).internal) / (2.0 * h);
+      EXPECT_NEAR(forces.total()[k][i], reaction[i] - held - contact, 1e-2) << "particle " << a;
+      EXPECT_NEAR(internal.force[k][i], reaction[i] - held, 1e-2) << "particle " << a;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Conditions, VariationalGhosts,
+                         testing::Values(Variant{Method::variational, mixed, "mixed"},
+                                         Variant{Method::variational, everything, "held"}),
+                         [](const auto& param) { return param.param.name; });
+
+class Conservation : public testing::TestWithParam<Method> {};
+
+/// Free bodies: forces and torques of any state add up to zero.
+TEST_P(Conservation, ForcesAndTorquesVanish) {
+  const System s = system_of(discretize(GetParam(), box({1, 1, 1}), {4, 3, 3}, 0.3, 11, nothing), rubber());
+  State state = reference_state(s);
+  move(state, s, wavy);
+  Forces forces(s);
+  forces.evaluate(state, {{}, {}, {}}, 0.0);
+  Vec3 force, torque;
+  double size = 0.0;
+  for (std::size_t a = 0; a < s.d.X.size(); ++a) {
+    const Vec3 f = to_vec3(forces.total()[a]);
+    force += f;
+    torque += cross(to_vec3(state.x[a]), f);
+    size += norm(f);
+  }
+  EXPECT_LT(norm(force), 1e-13 * size);
+  EXPECT_LT(norm(torque), 1e-13 * size);
+}
+
+/// F(Qx) = Q F(x) for the free body.
+TEST_P(Conservation, DeformationGradientIsObjective) {
+  const System s = system_of(discretize(GetParam(), box({1, 1, 1}), {3, 3, 3}, 0.3, 3, nothing), rubber());
+  const double c = std::cos(0.7), z = std::sin(0.7);
+  const Mat3 Q{{c, -z, 0, z, c, 0, 0, 0, 1}};
+  State state = reference_state(s), turned = state;
+  move(state, s, wavy);
+  move(turned, s, [&](const Vec3& X) { return Q * wavy(X) + Vec3{3, -2, 1}; });
+  Forces first(s), second(s);
+  first.evaluate(state, {{}, {}, {}}, 0.0);
+  second.evaluate(turned, {{}, {}, {}}, 0.0);
+  for (std::size_t a = 0; a < s.d.X.size(); ++a) {
+    const Mat3 difference = to_mat3(second.deformation_gradient()[a]) - Q * to_mat3(first.deformation_gradient()[a]);
+    EXPECT_LT(std::sqrt(contract(difference, difference)), 1e-13);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllFormulations, Conservation,
+                         testing::Values(Method::delaunay, Method::consistent, Method::variational),
+                         [](const auto& param) { return name_of(param.param); });
+
+}  // namespace
+}  // namespace tessera::test
