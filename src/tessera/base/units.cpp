@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <vector>
 
@@ -213,15 +214,19 @@ double scaled(std::string_view digits, int exponent) {
   if (e != std::string_view::npos) {
     std::string_view text = digits.substr(e + 1);
     if (text.starts_with("+")) text.remove_prefix(1);
-    // An exponent beyond the range of int leaves zero here and overflows below just the same.
-    if (std::from_chars(text.data(), text.data() + text.size(), own).ec != std::errc()) own = 100000;
+    // Beyond these the number is zero or infinite anyway, and sums of exponents cannot overflow.
+    constexpr int limit = 100000;
+    if (std::from_chars(text.data(), text.data() + text.size(), own).ec != std::errc())
+      own = text.starts_with("-") ? -limit : limit;
+    own = std::clamp(own, -limit, limit);
   }
   std::string_view mantissa = digits.substr(0, e);
   if (mantissa.starts_with("+")) mantissa.remove_prefix(1);
   const std::string all = fmt::format("{}e{}", mantissa, own + exponent);
   double value = 0.0;
   const auto result = std::from_chars(all.data(), all.data() + all.size(), value);
-  return result.ec == std::errc() ? value : HUGE_VAL;
+  // Out of range leaves no value here, but zero or infinity there.
+  return result.ec == std::errc() ? value : std::strtod(all.c_str(), nullptr);
 }
 
 struct NamedDimension {
