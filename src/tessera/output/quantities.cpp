@@ -60,6 +60,7 @@ const std::array<std::string, 10> default_names = {"displacement",  "velocity", 
 
 std::vector<std::string> known_names() {
   std::vector<std::string> names;
+  names.reserve(table.size());
   for (const Quantity& quantity : table) names.emplace_back(quantity.name);
   return names;
 }
