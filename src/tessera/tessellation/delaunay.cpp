@@ -5,22 +5,34 @@
 
 #ifdef TESSERA_HAS_CGAL
 
-#include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 namespace tessera {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vertex = CGAL::Triangulation_vertex_base_with_info_3<Index, Kernel>;
-using Storage = CGAL::Triangulation_data_structure_3<Vertex, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Storage>;
+using WeightedPoint = Kernel::Weighted_point_3;
+using Vertex =
+    CGAL::Triangulation_vertex_base_with_info_3<Index, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using Storage = CGAL::Triangulation_data_structure_3<Vertex, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
+using Triangulation = CGAL::Regular_triangulation_3<Kernel, Storage>;
 
-std::vector<std::pair<Kernel::Point_3, Index>> numbered(std::span<const Vec3> points) {
-  std::vector<std::pair<Kernel::Point_3, Index>> result;
+/// Minus the change of the squared distance from the origin: a quadratic form, so that a lattice stays a lattice. The
+/// mixed terms make the diagonal 000-111 of an axis-parallel cell its shortest; nothing else depends on the numbers.
+double metric_change(const Vec3& X) {
+  return 1e-6 * (X.x * X.y + 0.8 * X.y * X.z + 0.6 * X.z * X.x + 0.3 * X.y * X.y - 0.2 * X.z * X.z);
+}
+
+std::vector<std::pair<WeightedPoint, Index>> numbered(std::span<const Vec3> points, std::span<const double> weights) {
+  std::vector<std::pair<WeightedPoint, Index>> result;
   result.reserve(points.size());
-  for (const Vec3& X : points) result.emplace_back(Kernel::Point_3(X.x, X.y, X.z), static_cast<Index>(result.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& X = points[i];
+    const double weight = weights[i] + metric_change(X - points[0]);
+    result.emplace_back(WeightedPoint({X.x, X.y, X.z}, weight), static_cast<Index>(i));
+  }
   return result;
 }
 
@@ -28,8 +40,8 @@ std::vector<std::pair<Kernel::Point_3, Index>> numbered(std::span<const Vec3> po
 
 bool has_delaunay() { return true; }
 
-std::vector<Tetrahedron> delaunay_tetrahedra(std::span<const Vec3> points) {
-  const auto input = numbered(points);
+std::vector<Tetrahedron> delaunay_tetrahedra(std::span<const Vec3> points, std::span<const double> weights) {
+  const auto input = numbered(points, weights);
   const Triangulation triangulation(input.begin(), input.end());
   if (triangulation.dimension() < 3)
     throw GeometryError(
@@ -51,7 +63,7 @@ namespace tessera {
 
 bool has_delaunay() { return false; }
 
-std::vector<Tetrahedron> delaunay_tetrahedra(std::span<const Vec3>) {
+std::vector<Tetrahedron> delaunay_tetrahedra(std::span<const Vec3>, std::span<const double>) {
   throw GeometryError(
       "this build cannot compute Delaunay tetrahedra: install CGAL (Debian: libcgal-dev) and build with "
       "TESSERA_WITH_CGAL=ON, or use a lattice or a tetrahedral mesh file");

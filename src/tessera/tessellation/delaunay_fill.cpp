@@ -56,9 +56,10 @@ void refuse_not_positive(std::span<const Tetrahedron> tetrahedra, std::span<cons
 
 }  // namespace
 
-std::vector<Tetrahedron> delaunay_fill(std::span<const Vec3> points, const Solid& solid) {
+std::vector<Tetrahedron> delaunay_fill(std::span<const Vec3> points, const Solid& solid,
+                                       std::span<const double> weights) {
   std::vector<Tetrahedron> tetrahedra;
-  for (const Tetrahedron& t : delaunay_tetrahedra(points))
+  for (const Tetrahedron& t : delaunay_tetrahedra(points, weights))
     if (solid.contains(centroid(t, points), 0.0)) tetrahedra.push_back(t);
   peel_flat(tetrahedra, points, flat_limit(tetrahedra, points));
   refuse_not_positive(tetrahedra, points);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numeric>
 
 #include "tessera/base/error.hpp"
 #include "tessera/tessellation/delaunay_fill.hpp"
+#include "tessera/tessellation/delaunay_weights.hpp"
 #include "tessera/tessellation/lattice_split.hpp"
 #include "tessera/tessellation/mesh_boundary.hpp"
 #include "tessera/tessellation/tetrahedra.hpp"
@@ -22,16 +24,6 @@ constexpr const char* cure =
     "every edge, finer or less jittered), or give a tetrahedral mesh file";
 
 std::string at(const Vec3& X) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", X.x, X.y, X.z); }
-
-std::vector<Tetrahedron> tetrahedra_of(const PointSet& set, const Solid& solid, Tetrahedralization how) {
-  const bool by_delaunay =
-      how == Tetrahedralization::delaunay || (how == Tetrahedralization::automatic && has_delaunay());
-  std::vector<Tetrahedron> tetrahedra = by_delaunay ? delaunay_fill(set.points, solid) : split_lattice(set, solid);
-  std::transform(tetrahedra.begin(), tetrahedra.end(), tetrahedra.begin(),
-                 [](const Tetrahedron& t) { return canonical(t); });
-  std::sort(tetrahedra.begin(), tetrahedra.end());
-  return tetrahedra;
-}
 
 void refuse_left_out_points(const TetrahedralMesh& mesh) {
   std::vector<char> used(mesh.points.size(), 0);
@@ -73,17 +65,40 @@ void refuse_wrong_volume(const TetrahedralMesh& mesh, const Solid& solid) {
                                   volume < solid.volume ? "little" : "much", cure));
 }
 
-}  // namespace
-
-TetrahedralMesh tetrahedralize(const PointSet& points, const Solid& solid, Tetrahedralization how) {
+TetrahedralMesh checked(const PointSet& set, const Solid& solid, std::vector<Tetrahedron> tetrahedra) {
   TetrahedralMesh mesh;
-  mesh.points = points.points;
-  mesh.tetrahedra = tetrahedra_of(points, solid, how);
+  mesh.points = set.points;
+  mesh.tetrahedra = std::move(tetrahedra);
+  for (Tetrahedron& t : mesh.tetrahedra) t = canonical(t);
+  std::sort(mesh.tetrahedra.begin(), mesh.tetrahedra.end());
   refuse_left_out_points(mesh);
   mesh.boundary = boundary_of(mesh, solid);
   refuse_wrong_volume(mesh, solid);
   for (const Side& side : solid.sides) mesh.side_names.push_back(side.names);
   return mesh;
+}
+
+/// Delaunay tetrahedra know nothing of re-entrant edges and may cut through the notch where jitter is large; then the
+/// boundary is protected by weights, as light ones as will do.
+TetrahedralMesh by_delaunay(const PointSet& set, const Solid& solid) {
+  std::exception_ptr first;
+  for (const double strength : {0.0, 0.1, 0.2, 0.3, 0.4}) {
+    try {
+      return checked(set, solid, delaunay_fill(set.points, solid, boundary_weights(set.points, solid, strength)));
+    } catch (const GeometryError&) {
+      if (!first) first = std::current_exception();
+    }
+    if (solid.pieces.size() == 1) break;  // convex: no weights can help
+  }
+  std::rethrow_exception(first);
+}
+
+}  // namespace
+
+TetrahedralMesh tetrahedralize(const PointSet& points, const Solid& solid, Tetrahedralization how) {
+  if (how == Tetrahedralization::split || (how == Tetrahedralization::automatic && !has_delaunay()))
+    return checked(points, solid, split_lattice(points, solid));
+  return by_delaunay(points, solid);
 }
 
 }  // namespace tessera

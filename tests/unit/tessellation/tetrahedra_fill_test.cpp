@@ -202,6 +202,63 @@ TEST_F(DelaunayFill, RoundedSlantedSidesLeaveNoFlatTetrahedra) {
   for (const Tetrahedron& t : mesh.tetrahedra) EXPECT_GT(six_volume(t, mesh.points), 1e-9);
 }
 
+TEST_F(DelaunayFill, RegularLatticeGivesTheTetrahedraOfTheSplit) {
+  const Solid solid = build_solid(box({0, 0, 0}, {1, 2, 3}));
+  LatticeSpec spec;
+  spec.counts = {{4, 5, 6}};
+  const PointSet set = place_particles({spec, {}}, solid, Placement::vertices);
+  EXPECT_EQ(tetrahedralize(set, solid, Tetrahedralization::delaunay).tetrahedra,
+            tetrahedralize(set, solid, Tetrahedralization::split).tetrahedra);
+}
+
+/// A unit cube turned about z by a, then about x by b, as a solid made by hand.
+struct TurnedCube {
+  double a, b;
+
+  Vec3 turn(const Vec3& v) const {
+    const Vec3 w{std::cos(a) * v.x - std::sin(a) * v.y, std::sin(a) * v.x + std::cos(a) * v.y, v.z};
+    return {w.x, std::cos(b) * w.y - std::sin(b) * w.z, std::sin(b) * w.y + std::cos(b) * w.z};
+  }
+
+  Solid solid() const {
+    Solid cube;
+    cube.pieces.emplace_back();
+    for (const Vec3& N :
+         {Vec3{-1, 0, 0}, Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{0, 0, 1}}) {
+      const Plane plane{turn(N), N.x + N.y + N.z > 0.0 ? 1.0 : 0.0};
+      cube.pieces[0].walls.push_back({plane, static_cast<Index>(cube.sides.size())});
+      cube.sides.push_back({{"side" + std::to_string(cube.sides.size())}, plane});
+    }
+    cube.lower = cube.pieces[0].lower = {-2, -2, -2};
+    cube.upper = cube.pieces[0].upper = {2, 2, 2};
+    cube.volume = 1.0;
+    return cube;
+  }
+};
+
+TEST_F(DelaunayFill, TurnedLatticeLeavesNoSlivers) {
+  // Rounding makes every rectangle of the lattice nearly, but not quite, flat and cyclic.
+  for (int turn = 1; turn <= 10; ++turn) {
+    const TurnedCube cube{0.3 * turn, 0.2 * turn};
+    PointSet set;
+    for (int n = 0; n < 216; ++n) set.points.push_back(cube.turn({n % 6 / 5.0, n / 6 % 6 / 5.0, n / 36 / 5.0}));
+    const TetrahedralMesh mesh = tetrahedralize(set, cube.solid(), Tetrahedralization::delaunay);
+    expect_sound(mesh);
+    EXPECT_EQ(mesh.tetrahedra.size(), 6u * 125u);
+    for (const Tetrahedron& t : mesh.tetrahedra) EXPECT_NEAR(six_volume(t, mesh.points), 0.008, 1e-14);
+  }
+}
+
+TEST_F(DelaunayFill, ReentrantEdgesHoldWithTheLargestJitter) {
+  const Solid solid = build_solid(l_block());
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const TetrahedralMesh mesh = tetrahedralize(lattice(solid, 1.0, 0.49, seed), solid, Tetrahedralization::delaunay);
+    expect_sound(mesh);
+    EXPECT_NEAR(volume_of(mesh), 117.0, 1e-11);
+    expect_near(area_of(mesh, "edge3"), {0, 9, 0}, 1e-12);
+  }
+}
+
 TEST(Delaunay, WithoutCgalTheErrorSaysWhatToInstall) {
   if (has_delaunay()) GTEST_SKIP() << "built with CGAL";
   const std::string message =
