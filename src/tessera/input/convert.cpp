@@ -130,7 +130,7 @@ Value to_partial_formula(const Parameter& p, const Value& value) {
 Value to_full_formula(const Parameter& p, const Value& value) {
   const auto* text = value.get_if<std::string>();
   if (text != nullptr && trimmed(*text) == "free")
-    throw InputError(value.origin, fmt::format("found \"free\"; expected {} here; write 0 for none", expectation(p)));
+    throw InputError(value.origin, fmt::format("found \"free\"; expected {}; write 0 for none", expectation(p)));
   return to_formula(p, value);
 }
 

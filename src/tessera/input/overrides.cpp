@@ -44,13 +44,16 @@ Value& item_of(Array& array, const std::string& part, const Origin& origin) {
                                        array.size()));
 }
 
-Value& child_of(Value& parent, const std::string& part, const Origin& origin) {
+/// `path` is the path of the child.
+Value& child_of(Value& parent, const std::string& part, const std::string& path, const Origin& origin) {
   if (auto* array = std::get_if<Array>(&parent.data)) return item_of(*array, part, origin);
   auto* table = std::get_if<Table>(&parent.data);
   if (table == nullptr)
     throw InputError(origin, fmt::format("{} lies inside {}, which is no table", quoted(part), describe(parent)));
   if (Value* found = find(*table, part)) return *found;
-  table->push_back({part, origin, {Table{}, origin}});
+  Origin created = origin;
+  created.key = path;
+  table->push_back({part, created, {Table{}, created}});
   return table->back().value;
 }
 
@@ -71,9 +74,11 @@ void apply(Value& root, const std::string& text) {
                      fmt::format("--set {}: expected key=value, as in time.end=0.1", quoted(text)));
   Value* place = &root;
   Value* parent = nullptr;
+  std::string path;
   for (const std::string& part : parts) {
+    path.append(path.empty() ? "" : ".").append(part);
     parent = place;
-    place = &child_of(*parent, part, origin);
+    place = &child_of(*parent, part, path, origin);
   }
   mark_key(*parent, parts.back(), origin);
   const std::string value(trimmed(text.substr(equals + 1)));

@@ -83,6 +83,8 @@ std::string describe(const Value& value) {
   constexpr std::size_t longest = 60;
   std::string text = to_toml(value);
   if (text.size() > longest) text = text.substr(0, longest - 3) + "...";
+  // A real number must not look like an integer when it is refused for not being one.
+  if (value.get_if<double>() != nullptr && text.find_first_not_of("-0123456789") == std::string::npos) text += ".0";
   if (value.get_if<std::string>() != nullptr) return "the string " + text;
   if (value.get_if<std::int64_t>() != nullptr || value.get_if<double>() != nullptr) return "the number " + text;
   if (value.get_if<Array>() != nullptr) return "the list " + text;

@@ -1,0 +1,257 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "sample.hpp"
+
+namespace tessera {
+namespace {
+
+TEST(Case, HoldsWhatTheFileSays) {
+  const Case c = sample::read(sample::text);
+  EXPECT_EQ(c.title, "Punch");
+  EXPECT_EQ(c.file, "dir/case.toml");
+  EXPECT_EQ(c.method.formulation, Formulation::voronoi);
+  EXPECT_EQ(c.method.boundary, BoundaryTreatment::variational);
+  EXPECT_EQ(c.method.dimension, 3);
+  EXPECT_EQ(c.gravity, (Vec3{0.0, 0.0, -9.81}));
+  ASSERT_EQ(c.bodies.size(), 1U);
+  EXPECT_EQ(c.bodies[0].name, "block");
+  EXPECT_EQ(c.bodies[0].material, 0);
+  const auto& box = std::get<BoxShape>(c.bodies[0].shape->kind);
+  EXPECT_EQ(box.min, (Vec3{0.0, 0.0, 0.0}));
+  EXPECT_EQ(box.max, (Vec3{1.0, 0.5, 0.1}));
+  const auto& lattice = std::get<LatticeSpec>(c.bodies[0].particles.source);
+  EXPECT_EQ(*lattice.counts, (std::array<int, 3>{21, 11, 3}));
+  EXPECT_FALSE(lattice.spacing);
+  EXPECT_EQ(lattice.jitter, 0.25);
+  EXPECT_EQ(lattice.seed, 7U);
+}
+
+TEST(Case, HoldsMaterials) {
+  const Case c = sample::read(sample::text);
+  ASSERT_EQ(c.materials.size(), 1U);
+  const Material& m = c.materials[0];
+  EXPECT_EQ(m.name, "rubber");
+  EXPECT_EQ(m.young, 1e6);
+  EXPECT_EQ(m.poisson, 0.45);
+  EXPECT_EQ(m.density, 1000.0);
+  EXPECT_EQ(m.contact.normal, 0.5);
+  EXPECT_EQ(m.contact.tangential, 2.0);
+  EXPECT_EQ(m.viscosity.linear, 0.1);
+  EXPECT_EQ(m.viscosity.quadratic, 0.2);
+  const auto& law = std::get<NeoHookean>(m.law);
+  EXPECT_NEAR(law.mu, 1e6 / 2.9, 1e-6);
+  EXPECT_NEAR(law.lambda, 0.45e6 / (1.45 * 0.1), 1e-6);
+}
+
+TEST(Case, HoldsLoads) {
+  const Case c = sample::read(sample::text);
+  const Vec3 X{6.0, 0.0, 0.0};
+  ASSERT_EQ(c.initial.size(), 1U);
+  EXPECT_EQ(c.initial[0].body, "");
+  EXPECT_EQ(evaluate(c.initial[0].displacement, 0.0, X), (Vec3{1e-4 * 6.0, 0.0, 0.002}));
+  EXPECT_EQ(evaluate(c.initial[0].velocity, 0.0, X), (Vec3{0.0, 0.0, 10.0}));
+  ASSERT_EQ(c.boundary.size(), 4U);
+  const auto& motion = std::get<PrescribedDisplacement>(c.boundary[0].kind).components;
+  EXPECT_TRUE(motion[0]->is_constant());
+  EXPECT_DOUBLE_EQ((*motion[1])(3.0, X), -0.3);
+  EXPECT_FALSE(motion[2]);
+  EXPECT_EQ(c.boundary[0].where.items, (std::vector<std::string>{"y == max && X > 1/3"}));
+  EXPECT_EQ(c.boundary[0].where.origin.line, 22);
+  EXPECT_EQ(c.boundary[0].where.origin.column, 9);
+  EXPECT_EQ(std::get<Condition>(c.boundary[1].kind), Condition::symmetric);
+  EXPECT_EQ(c.boundary[1].where.items, (std::vector<std::string>{"-x", "+x"}));
+  EXPECT_EQ(evaluate(std::get<NominalTraction>(c.boundary[2].kind).components, 2.0, X), (Vec3{1e3, 4.0, 0.0}));
+  EXPECT_EQ(std::get<NominalPressure>(c.boundary[3].kind).pressure(0.0, X), 2e5);
+}
+
+TEST(Case, HoldsTimeAndOutput) {
+  const Case c = sample::read(sample::text);
+  EXPECT_EQ(c.time.end, 1.5);
+  EXPECT_TRUE(std::holds_alternative<AutoSpectralStep>(c.time.step));
+  EXPECT_EQ(c.time.safety, 0.8);
+  EXPECT_EQ(c.time.damping, 2.0);
+  EXPECT_EQ(c.time.origin.line, 37);
+  EXPECT_EQ(c.output.fields.format, FieldFormat::csv);
+  EXPECT_EQ(c.output.fields.every, 0.05);
+  EXPECT_EQ(c.output.fields.quantities, (std::vector<std::string>{"displacement", "stress"}));
+  EXPECT_TRUE(c.output.fields.cells);
+  EXPECT_EQ(c.output.history.every, 0.001);
+  EXPECT_EQ(c.output.checkpoint.every_wall, 60.0);
+  EXPECT_FALSE(c.output.checkpoint.every_time);
+  ASSERT_EQ(c.probes.size(), 3U);
+  EXPECT_EQ(c.probes[0].kind, ProbeKind::reaction);
+  EXPECT_EQ(c.probes[0].where->items, (std::vector<std::string>{"y == max"}));
+  EXPECT_EQ(*c.probes[1].at, (Vec3{1.0, 0.2, 0.0}));
+  EXPECT_EQ(c.probes[2].quantity, "von_mises");
+  EXPECT_FALSE(c.probes[2].where);
+  ASSERT_EQ(c.references.size(), 1U);
+  EXPECT_EQ(c.references[0].name, "exact");
+}
+
+const std::string smallest = R"(
+[[body]]
+shape = { box = { min = [0, 0, 0], max = [1, 1, 1] } }
+particles = { spacing = "10 cm" }
+material = "m"
+[[material]]
+name = "m"
+young = 1e6
+poisson = 0
+density = 1000
+[time]
+end = 0
+)";
+
+TEST(Case, FillsInDefaults) {
+  const Case c = sample::read(smallest);
+  EXPECT_EQ(c.method.formulation, Formulation::voronoi);
+  EXPECT_EQ(c.method.boundary, BoundaryTreatment::consistent);
+  EXPECT_EQ(c.bodies[0].name, "body");
+  const auto& lattice = std::get<LatticeSpec>(c.bodies[0].particles.source);
+  EXPECT_EQ(*lattice.spacing, 0.1);
+  EXPECT_EQ(lattice.jitter, 0.0);
+  EXPECT_EQ(lattice.seed, 1U);
+  EXPECT_EQ(c.materials[0].model, "neo-hookean");
+  EXPECT_EQ(c.materials[0].contact.normal, 1.0);
+  EXPECT_EQ(c.materials[0].viscosity.linear, 0.0);
+  EXPECT_TRUE(std::holds_alternative<AutoStep>(c.time.step));
+  EXPECT_EQ(c.time.safety, 0.3);
+  EXPECT_EQ(c.output.fields.format, FieldFormat::vtkhdf);
+  EXPECT_FALSE(c.output.fields.every);
+  EXPECT_FALSE(c.output.history.every);
+  EXPECT_FALSE(c.output.checkpoint.every_wall);
+  EXPECT_TRUE(c.boundary.empty());
+  EXPECT_EQ(c.gravity, Vec3{});
+}
+
+TEST(Case, TakesEveryKindOfShape) {
+  const std::string line = "shape = { box = { min = [0, 0, 0], max = [\"1 m\", \"50 cm\", 0.1] } }";
+  const Case c = sample::read(sample::with(line, R"(shape = { name = "L", difference = [
+      { box = { min = [0, 0, 0], max = [1, 1, 1] } },
+      { union = [ { name = "hole", box = { min = [0, 0, 0], max = [0.5, 0.5, 1] } },
+                  { polygon = { points = [[0, 0], ["1 cm", 0], [0, 0.01]], thickness = "2 mm", base = -1 } } ] } ] })"));
+  const auto& difference = std::get<DifferenceShape>(c.bodies[0].shape->kind);
+  EXPECT_EQ(c.bodies[0].shape->name, "L");
+  ASSERT_EQ(difference.parts.size(), 2U);
+  const auto& parts = std::get<UnionShape>(difference.parts[1].kind).parts;
+  EXPECT_EQ(parts[0].name, "hole");
+  EXPECT_EQ(parts[0].origin.line, 9);
+  EXPECT_EQ(parts[0].origin.key, "body.0.shape.difference.1.union.0");
+  const auto& polygon = std::get<PolygonShape>(parts[1].kind);
+  ASSERT_EQ(polygon.points.size(), 3U);
+  EXPECT_EQ(polygon.points[1], (std::array<double, 2>{0.01, 0.0}));
+  EXPECT_EQ(polygon.thickness, 0.002);
+  EXPECT_EQ(polygon.base, -1.0);
+}
+
+TEST(Case, FindsFilesBesideTheCase) {
+  const std::string line = "particles = { lattice = \"cubic\", counts = [21, 11, 3], jitter = 0.25, seed = 7 }";
+  const Case points = sample::read(sample::with(line, "particles = { file = \"points/a.csv\" }"));
+  const std::string beside = std::filesystem::absolute("dir/points/a.csv").string();
+  EXPECT_EQ(std::get<PointFileSpec>(points.bodies[0].particles.source).path, beside);
+  const Case mesh =
+      sample::read(sample::with(line, "particles = { mesh = \"/tmp/a.msh\" }"), {"method.formulation=delaunay"});
+  EXPECT_EQ(std::get<MeshFileSpec>(mesh.bodies[0].particles.source).path, "/tmp/a.msh");
+}
+
+TEST(Case, TakesAFixedStepAndSimulatedCheckpoints) {
+  const Case c = sample::read(sample::text, {"time.step=2 us", "time.force=true", "output.checkpoint.every=0.5"});
+  EXPECT_EQ(std::get<FixedStep>(c.time.step).dt, 2e-6);
+  EXPECT_TRUE(std::get<FixedStep>(c.time.step).force);
+  EXPECT_EQ(c.output.checkpoint.every_time, 0.5);
+  EXPECT_FALSE(c.output.checkpoint.every_wall);
+}
+
+TEST(Case, TellsWhichKeysHaveNoEffect) {
+  const CaseFile file = read_case_text(sample::text, "case.toml", {"time.step=1e-6", "method.formulation=delaunay"});
+  ASSERT_EQ(file.unused.size(), 2U);
+  EXPECT_EQ(file.unused[0], "case.toml:4:12: method.boundary: only has an effect with formulation = \"voronoi\"");
+  EXPECT_EQ(file.unused[1],
+            "case.toml:38:10: time.safety: only has an effect with step = \"auto\" or step = \"auto-spectral\"");
+  EXPECT_TRUE(read_case_text(sample::text, "case.toml", {}).unused.empty());
+}
+
+const std::string flat = R"(
+[method]
+dimension = 2
+[[body]]
+shape = { polygon = { points = [[0, 0], [2, 0], [2, 1], [0, 1]] } }
+particles = { counts = [20, 10] }
+material = "m"
+[[material]]
+name = "m"
+young = 1e6
+poisson = 0.3
+density = 1000
+[[initial]]
+velocity = ["Y", "-X"]
+[[boundary]]
+where = "edge4"
+displacement = [0, "free"]
+[[boundary]]
+where = "edge2"
+traction = ["1 kPa", 0]
+[gravity]
+acceleration = [0, -9.81]
+[time]
+end = 1
+[[probe]]
+name = "corner"
+type = "point"
+at = [2, 1]
+)";
+
+TEST(Case, TakesTwoComponentsInTwoDimensions) {
+  const Case c = sample::read(flat);
+  EXPECT_EQ(c.method.dimension, 2);
+  const auto& polygon = std::get<PolygonShape>(c.bodies[0].shape->kind);
+  EXPECT_EQ(polygon.base, 0.0);
+  EXPECT_EQ(polygon.thickness, 1.0);
+  EXPECT_EQ(*std::get<LatticeSpec>(c.bodies[0].particles.source).counts, (std::array<int, 3>{20, 10, 1}));
+  EXPECT_EQ(evaluate(c.initial[0].velocity, 0.0, {3.0, 4.0, 5.0}), (Vec3{4.0, -3.0, 0.0}));
+  EXPECT_FALSE(std::get<PrescribedDisplacement>(c.boundary[0].kind).components[2]);
+  EXPECT_EQ(evaluate(std::get<NominalTraction>(c.boundary[1].kind).components, 0.0, {}), (Vec3{1e3, 0.0, 0.0}));
+  EXPECT_EQ(c.gravity, (Vec3{0.0, -9.81, 0.0}));
+  EXPECT_EQ(*c.probes[0].at, (Vec3{2.0, 1.0, 0.5}));
+  std::string box = flat;
+  const std::string polygon_text = "polygon = { points = [[0, 0], [2, 0], [2, 1], [0, 1]] }";
+  box.replace(box.find(polygon_text), polygon_text.size(), "box = { min = [0, 0], max = [2, 1] }");
+  const Case b = sample::read(box);
+  EXPECT_EQ(std::get<BoxShape>(b.bodies[0].shape->kind).min, (Vec3{0.0, 0.0, 0.0}));
+  EXPECT_EQ(std::get<BoxShape>(b.bodies[0].shape->kind).max, (Vec3{2.0, 1.0, 1.0}));
+}
+
+TEST(EffectiveCase, ReadsBackToTheSameCase) {
+  const std::vector<std::string> texts = {
+      sample::text,
+      smallest,
+      flat,
+      sample::with("particles = { lattice = \"cubic\", counts = [21, 11, 3], jitter = 0.25, seed = 7 }",
+                   "particles = { file = \"a b/\\\"c\\\".csv\" }"),
+      sample::with("young = \"1 MPa\"", "young = 123456.78901234567"),
+      sample::with("poisson = 0.45", "poisson = 1e-30")};
+  for (const std::string& text : texts) {
+    const Case first = sample::read(text);
+    // Elsewhere, so that file names must not depend on where the file lies.
+    const CaseFile second = read_case_text(first.effective, "results/case.toml", {});
+    EXPECT_EQ(second.value.effective, first.effective);
+    EXPECT_TRUE(second.unused.empty());
+    EXPECT_EQ(second.value.materials[0].young, first.materials[0].young);
+    EXPECT_EQ(second.value.time.end, first.time.end);
+    EXPECT_EQ(second.value.boundary.size(), first.boundary.size());
+    EXPECT_EQ(second.value.probes.size(), first.probes.size());
+  }
+}
+
+TEST(EffectiveCase, ShowsDefaults) {
+  const std::string effective = sample::read(smallest).effective;
+  for (const char* part : {"formulation = \"voronoi\"", "boundary = \"consistent\"", "safety = 0.3",
+                           "contact = { normal = 1, tangential = 1 }", "spacing = 0.1", "seed = 1",
+                           "format = \"vtkhdf\"", "acceleration = [0, 0, 0]"})
+    EXPECT_NE(effective.find(part), std::string::npos) << part << " is not in\n" << effective;
+}
+
+}  // namespace
+}  // namespace tessera
