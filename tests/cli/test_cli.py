@@ -1,0 +1,352 @@
+"""Runs the program and checks exit status, messages and files. Needs TESSERA_PROGRAM; standard library only."""
+
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ.get("TESSERA_PROGRAM", "tessera")
+DONE, USAGE, INPUT, GEOMETRY, RUN = 0, 2, 3, 4, 5
+
+# Line numbers in the messages below count from the first line of this text.
+CASE = """\
+title = "Block"
+[[body]]
+name = "block"
+shape = { box = { min = [0, 0, 0], max = [1, 1, 1] } }
+particles = { counts = [3, 3, 3], jitter = 0.2, seed = 3 }
+material = "rubber"
+[[material]]
+name = "rubber"
+young = "1 MPa"
+poisson = 0.3
+density = "1000 kg/m3"
+[[boundary]]
+where = "-x"
+condition = "fixed"
+[[boundary]]
+where = "+x"
+displacement = ["0.01*t", "free", "free"]
+[time]
+end = "10 ms"
+[output]
+fields = { format = "csv", every = "5 ms" }
+history = { every = "1 ms" }
+[[probe]]
+name = "grip"
+type = "reaction"
+where = "+x"
+"""
+
+SECOND_BODY = """\
+[[body]]
+name = "other"
+shape = { box = { min = [%s, 0, 0], max = [9, 1, 1] } }
+particles = { counts = [2, 2, 2] }
+material = "rubber"
+"""
+
+
+class CliTest(unittest.TestCase):
+    """A folder of its own for every test, in which the program is called."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, text, name="case.toml"):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return name
+
+    def call(self, *arguments):
+        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=240)
+
+    def check_fails(self, status, *parts, arguments):
+        """The program ends with `status` and one line on standard error that holds all `parts`."""
+        result = self.call(*arguments)
+        self.assertEqual(result.returncode, status, result.stderr)
+        lines = [line for line in result.stderr.splitlines() if not line.startswith("tessera: note:")]
+        self.assertEqual(len(lines), 1, result.stderr)
+        self.assertTrue(lines[0].startswith("tessera: "), lines[0])
+        for part in parts:
+            self.assertIn(part, lines[0])
+        self.assertNotIn("\033", result.stderr)
+        return result
+
+
+class Usage(CliTest):
+    def test_no_command(self):
+        self.check_fails(USAGE, "no command", arguments=[])
+
+    def test_unknown_command(self):
+        self.check_fails(USAGE, 'unknown command "rnu" (did you mean "run"?)', arguments=["rnu", "case.toml"])
+
+    def test_unknown_option(self):
+        self.check_fails(USAGE, "--bogus", "tessera help run", arguments=["run", "case.toml", "--bogus"])
+
+    def test_missing_case(self):
+        self.check_fails(USAGE, "CASE is required", arguments=["run"])
+
+    def test_too_many_cases(self):
+        self.check_fails(USAGE, "b.toml", arguments=["run", "a.toml", "b.toml"])
+
+    def test_threads(self):
+        for threads in ("0", "-1", "many"):
+            self.check_fails(USAGE, "--threads", arguments=["run", "case.toml", "-j", threads])
+
+    def test_force_or_resume(self):
+        self.check_fails(USAGE, "--resume", "--force", arguments=["run", "case.toml", "--force", "--resume"])
+
+    def test_result_folder_exists(self):
+        self.write(CASE)
+        self.write("precious", "case.out/history.csv")
+        self.check_fails(USAGE, '"case.out" exists', "--force", "--resume", arguments=["run", "case.toml"])
+        self.write("precious", "other/summary.json")
+        self.check_fails(USAGE, '"other" exists', arguments=["run", "case.toml", "-o", "other"])
+        self.assertEqual((self.folder / "case.out/history.csv").read_text(), "precious")
+
+    def test_result_folder_is_a_file(self):
+        self.write(CASE)
+        self.write("precious", "case.out")
+        self.check_fails(USAGE, '"case.out" is a file', arguments=["run", "case.toml", "--force"])
+        self.assertEqual((self.folder / "case.out").read_text(), "precious")
+
+    def test_nothing_to_resume(self):
+        self.write(CASE)
+        self.check_fails(USAGE, "no result folder", arguments=["run", "case.toml", "--resume"])
+
+    def test_unknown_key_to_describe(self):
+        self.check_fails(USAGE, 'did you mean "time.safety"?', arguments=["describe", "time.safty"])
+
+    def test_unknown_help(self):
+        self.check_fails(USAGE, 'did you mean "check"?', arguments=["help", "chek"])
+
+
+class BadCases(CliTest):
+    def check_bad(self, old, new, *parts):
+        self.assertIn(old, CASE)
+        self.write(CASE.replace(old, new, 1))
+        for command in ("run", "check"):
+            with self.subTest(command=command, new=new):
+                self.check_fails(INPUT, *parts, arguments=[command, "case.toml"])
+        self.assertFalse((self.folder / "case.out/summary.json").exists())
+
+    def test_no_file(self):
+        self.check_fails(INPUT, "nowhere.toml: cannot be read", arguments=["run", "nowhere.toml"])
+
+    def test_folder_instead_of_file(self):
+        self.check_fails(INPUT, "is a folder", arguments=["run", "."])
+
+    def test_no_toml(self):
+        self.check_bad("[time]", "[time", "case.toml:18:", "not valid TOML")
+
+    def test_truncated(self):
+        self.write(CASE[: CASE.index("poisson") + 4])
+        self.check_fails(INPUT, "case.toml:10:", "not valid TOML", arguments=["run", "case.toml"])
+
+    def test_binary(self):
+        (self.folder / "case.toml").write_bytes(bytes(range(256)) * 8)
+        self.check_fails(INPUT, "case.toml:1:", arguments=["run", "case.toml"])
+
+    def test_unknown_key(self):
+        self.check_bad("poisson", "poison", 'case.toml:10:1: material.0.poison: unknown key (did you mean "poisson"?)')
+
+    def test_wrong_type(self):
+        self.check_bad("[3, 3, 3]", '"many"', "case.toml:5:24: body.0.particles.counts: ", "three integers")
+
+    def test_wrong_unit(self):
+        self.check_bad('"1 MPa"', '"1 mm"', "case.toml:9:9: material.0.young: ", "a length in m", "a pressure in Pa")
+
+    def test_negative_density(self):
+        self.check_bad('"1000 kg/m3"', "-1000", "case.toml:11:11: material.0.density: ", "-1000", "> 0")
+
+    def test_incompressible(self):
+        self.check_bad("0.3", "0.5", "case.toml:10:11: material.0.poisson: ", "0.5", "> -1 and < 0.5")
+
+    def test_missing_key(self):
+        self.check_bad('end = "10 ms"\n', "", "case.toml:18:1: time.end: missing")
+
+    def test_unknown_material(self):
+        self.check_bad('material = "rubber"', 'material = "ruber"', "body.0.material", 'did you mean "rubber"?')
+
+    def test_formula(self):
+        self.check_bad('"0.01*t"', '"0.01*u"', "case.toml:17:23: boundary.1.displacement.0: ", 'unknown name "u"')
+
+    def test_bad_choice(self):
+        self.check_bad('"fixed"', '"fixd"', "case.toml:14:13: boundary.0.condition: ", 'did you mean "fixed"?')
+
+    def test_unknown_side(self):
+        self.check_bad('where = "-x"', 'where = "left"', "case.toml:13:", "left")
+
+    def test_empty_selection(self):
+        self.check_bad('where = "-x"', 'where = "X < -1"', "case.toml:1", "boundary.0")
+
+    def test_two_conditions_on_one_component(self):
+        self.check_bad('where = "+x"', 'where = ["+x", "-x"]', "case.toml:1", "boundary.0", "boundary.1")
+
+    def test_override(self):
+        self.write(CASE)
+        self.check_fails(
+            INPUT, "command line: time.ends: unknown key", arguments=["run", "case.toml", "--set", "time.ends=1"]
+        )
+
+    def test_points_file(self):
+        self.check_bad("{ counts = [3, 3, 3], jitter = 0.2, seed = 3 }", '{ file = "points.csv" }', "points.csv")
+
+
+class Geometry(CliTest):
+    def check_geometry(self, text, *parts):
+        self.write(text)
+        for command in ("run", "check"):
+            with self.subTest(command=command):
+                self.check_fails(GEOMETRY, *parts, arguments=[command, "case.toml"])
+
+    def test_point_outside(self):
+        self.write("x,y,z\n0.25,0.5,0.5\n0.75,0.5,0.5\n1.5,0.5,0.5\n", "points.csv")
+        lattice = "{ counts = [3, 3, 3], jitter = 0.2, seed = 3 }"
+        self.check_geometry(CASE.replace(lattice, '{ file = "points.csv" }'), "1.5")
+
+    def test_bodies_overlap(self):
+        named = CASE.replace("[[boundary]]", '[[boundary]]\nbody = "block"').replace(
+            "[[probe]]", '[[probe]]\nbody = "block"'
+        )
+        self.check_geometry(named + SECOND_BODY % "0.5", "block", "other")
+
+    def test_mesh_that_is_none(self):
+        self.write("nonsense\n", "part.msh")
+        text = CASE.replace("{ counts = [3, 3, 3], jitter = 0.2, seed = 3 }", '{ mesh = "part.msh" }')
+        self.check_geometry('[method]\nformulation = "delaunay"\n' + text, "part.msh")
+
+
+class Information(CliTest):
+    def output_of(self, *arguments):
+        result = self.call(*arguments)
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertEqual(result.stderr, "")
+        return result.stdout
+
+    def test_version(self):
+        text = self.output_of("--version")
+        for part in ("tessera ", "compiler:", "build type:", "CGAL", "10.1007/s40571-021-00452-8", "Voronoi"):
+            self.assertIn(part, text)
+
+    def test_help(self):
+        text = self.output_of("--help")
+        for part in ("run", "check", "describe", "new", "help", "--version"):
+            self.assertIn(part, text)
+        self.assertEqual(self.output_of("help"), text)
+
+    def test_help_of_commands(self):
+        self.assertEqual(self.output_of("help", "run"), self.output_of("run", "--help"))
+        for option in ("--output", "--threads", "--set", "--resume", "--force", "--quiet"):
+            self.assertIn(option, self.output_of("help", "run"))
+
+    def test_describe(self):
+        everything = self.output_of("describe")
+        self.assertIn("material.poisson", everything)
+        one = self.output_of("describe", "material.poisson")
+        self.assertIn("> -1 and < 0.5", one)
+        self.assertNotIn("density", one)
+        self.assertTrue(self.output_of("describe", "--markdown").startswith("# Input reference\n"))
+
+
+class Examples(CliTest):
+    def names(self):
+        result = self.call("new", "--list")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        return [line.split()[0] for line in result.stdout.splitlines()]
+
+    def test_new(self):
+        names = self.names()
+        self.assertTrue(names)
+        for name in names:
+            result = self.call("new", name)
+            self.assertEqual(result.returncode, DONE, result.stderr)
+            commands = [line for line in result.stdout.splitlines() if line.startswith("tessera run ")]
+            self.assertTrue(commands)
+            for command in commands:
+                self.assertTrue((self.folder / command.split(" ", 2)[2]).is_file(), command)
+
+    def test_new_overwrites_nothing(self):
+        name = self.names()[0]
+        self.write("precious", "mine/notes.txt")
+        self.check_fails(USAGE, '"mine" exists', arguments=["new", name, "mine"])
+        self.assertEqual(sorted(p.name for p in (self.folder / "mine").iterdir()), ["notes.txt"])
+
+    def test_unknown_example(self):
+        name = self.names()[0]
+        self.check_fails(USAGE, f'did you mean "{name}"?', arguments=["new", name + "x"])
+
+    def test_new_without_a_name(self):
+        self.check_fails(USAGE, "--list", arguments=["new"])
+
+
+class Runs(CliTest):
+    def run_case(self, *arguments):
+        self.write(CASE)
+        result = self.call("run", "case.toml", "--quiet", *arguments)
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        return self.folder / "case.out"
+
+    def test_run_writes_its_results(self):
+        folder = self.run_case()
+        summary = json.loads((folder / "summary.json").read_text())
+        self.assertEqual(summary["particles"], 27)
+        self.assertAlmostEqual(summary["time"], 0.01, places=12)
+        with open(folder / "history.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertAlmostEqual(float(rows[-1]["t[s]"]), 0.01, places=12)
+        for column in ("kinetic[J]", "internal[J]", "external_work[J]", "grip.fx[N]"):
+            self.assertIn(column, rows[0])
+        self.assertGreater(float(rows[-1]["external_work[J]"]), 0)
+        self.assertTrue((folder / "fields_000000.csv").is_file())
+
+    def test_effective_case_gives_the_same_result(self):
+        folder = self.run_case()
+        result = self.call("run", "case.out/case.toml", "--quiet", "-o", "again")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertEqual((folder / "history.csv").read_text(), (self.folder / "again/history.csv").read_text())
+        self.assertEqual((folder / "case.toml").read_text(), (self.folder / "again/case.toml").read_text())
+
+    def test_force_replaces(self):
+        folder = self.run_case()
+        first = (folder / "history.csv").read_text()
+        result = self.call("run", "case.toml", "--quiet", "--force", "--set", "time.end=0.005", "time.damping=1")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertNotEqual((folder / "history.csv").read_text(), first)
+        self.assertAlmostEqual(json.loads((folder / "summary.json").read_text())["time"], 0.005, places=12)
+
+    def test_result_in_an_empty_folder(self):
+        (self.folder / "empty").mkdir()
+        self.run_case("-o", "empty")
+        self.assertTrue((self.folder / "empty/summary.json").is_file())
+
+    def test_note_on_a_key_without_effect(self):
+        self.write(CASE)
+        result = self.call("run", "case.toml", "--set", "time.step=1e-4", "time.safety=0.5")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertIn("tessera: note: command line: time.safety: only has an effect with", result.stderr)
+
+    def test_step_above_the_limit(self):
+        self.write(CASE)
+        self.check_fails(INPUT, "time.step", arguments=["run", "case.toml", "-q", "--set", "time.step=1", "time.end=2"])
+
+    def test_check(self):
+        self.write(CASE)
+        result = self.call("check", "case.toml")
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.assertIn("27", result.stdout)
+        self.assertFalse((self.folder / "case.out").exists())
+        report = self.call("check", "case.toml", "--json")
+        self.assertEqual(report.returncode, DONE, report.stderr)
+        self.assertIsInstance(json.loads(report.stdout), dict)
+
+
+if __name__ == "__main__":
+    unittest.main()
