@@ -36,8 +36,7 @@ struct UsageError : Error {
 
 /// The case file is wrong (status 3): says where, what was found and what is allowed.
 struct InputError : Error {
-  InputError(const Origin& origin, const std::string& message)
-      : Error(ExitStatus::input, describe(origin) + message) {}
+  InputError(const Origin& origin, const std::string& message) : Error(ExitStatus::input, describe(origin) + message) {}
 };
 
 /// Particles, cells or bonds cannot be built (status 4): says which particles and where.

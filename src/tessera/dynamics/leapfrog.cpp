@@ -45,6 +45,11 @@ void Leapfrog::prepare(const State& state, const Forces& forces, StepPair dt) {
   for (std::size_t i = 0; i < system_.d.constraints.size(); ++i) {
     const ParticleConstraint& c = system_.d.constraints[i];
     const auto k = static_cast<std::size_t>(c.particle);
+    if (h == 0.0) {  // a single evaluation: what is held does not accelerate
+      next_velocity_[i] = to_vec3(state.v[k]);
+      reactions_[i] = c.D * to_vec3(forces.total()[k]);
+      continue;
+    }
     next_velocity_[i] = constrained_velocity(state, i, dt.after, to_vec3(free_kick(state, forces, h, c.particle)));
     const Vec3 v_minus = to_vec3(state.v[k]), change = next_velocity_[i] - v_minus;
     const Vec3 needed = system_.mass[k] * ((1.0 / h) * change + (0.5 * damping_) * (v_minus + next_velocity_[i]));
@@ -69,6 +74,7 @@ Vec3 Leapfrog::velocity(const State& state, const Forces& forces, StepPair dt, I
   const Vec3 v_plus = constrained ? next_velocity_[static_cast<std::size_t>(constraint_of_[k])]
                                   : to_vec3(free_kick(state, forces, dt.middle(), a));
   const Vec3 v_minus = to_vec3(state.v[k]);
+  if (dt.middle() == 0.0) return v_minus;
   return v_minus + (dt.before / (dt.before + dt.after)) * (v_plus - v_minus);
 }
 

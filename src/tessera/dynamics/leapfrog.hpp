@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-/// The lengths of the steps before and after the present time [s].
+/// The lengths of the steps before and after the present time [s]; both zero when a state is only evaluated.
 struct StepPair {
   double before = 0.0;
   double after = 0.0;

@@ -36,7 +36,6 @@ void Ledger::remember(const State& state, const Forces& forces, const Leapfrog& 
 void Ledger::record(const State& state, const Forces& forces, const Leapfrog& leapfrog, std::span<const Vec3> walls,
                     StepPair dt, double before) {
   remember(state, forces, leapfrog, walls, before);
-  if (before > 0.0) dissipated_ += forces.sums().dissipated;
   if (leapfrog.damping() > 0.0) {
     const double power =
         2.0 * leapfrog.damping() * total_motion(system_, state, forces, leapfrog, dt, 0, system_.particles()).kinetic;
@@ -45,12 +44,13 @@ void Ledger::record(const State& state, const Forces& forces, const Leapfrog& le
   }
 }
 
-void Ledger::restore(const std::array<double, 3>& accounts, const State& state, const Forces& forces,
-                     const Leapfrog& leapfrog, std::span<const Vec3> walls) {
-  remember(state, forces, leapfrog, walls, 0.0);
-  external_work_ = accounts[0];
-  dissipated_ = accounts[1];
-  damping_power_ = accounts[2];
+void Ledger::restore(Books books) {
+  external_work_ = books.accounts[0];
+  dissipated_ = books.accounts[1];
+  damping_power_ = books.accounts[2];
+  tractions_ = std::move(books.last[0]);
+  walls_ = std::move(books.last[1]);
+  constraints_ = std::move(books.last[2]);
 }
 
 Motion& Motion::operator+=(const Motion& o) {

@@ -19,19 +19,25 @@ class Ledger {
   void record(const State& state, const Forces& forces, const Leapfrog& leapfrog, std::span<const Vec3> walls,
               StepPair dt, double before);
 
+  /// Adds viscous work, which the forces know after each evaluation [J].
+  void add_dissipated(double work) { dissipated_ += work; }
+
   double external_work() const { return external_work_; }  // without gravity [J]
   double dissipated() const { return dissipated_; }        // [J]
 
-  /// The accounts as numbers, for a checkpoint and back.
-  std::array<double, 3> accounts() const { return {external_work_, dissipated_, damping_power_}; }
-  void restore(const std::array<double, 3>& accounts, const State& state, const Forces& forces,
-               const Leapfrog& leapfrog, std::span<const Vec3> walls);
-
- private:
   /// Forces and places at the last recorded time.
   struct Memory {
     std::vector<Vec3> force, place;
   };
+  /// Everything that a resumed run must put back.
+  struct Books {
+    std::array<double, 3> accounts{};  // external work, dissipated, damping power
+    std::array<Memory, 3> last;        // of tractions, walls and constrained particles
+  };
+  Books books() const { return {{external_work_, dissipated_, damping_power_}, {tractions_, walls_, constraints_}}; }
+  void restore(Books books);
+
+ private:
   static double advance(Memory& memory, std::vector<Vec3> force, std::vector<Vec3> place, double before);
   void remember(const State& state, const Forces& forces, const Leapfrog& leapfrog, std::span<const Vec3> walls,
                 double before);

@@ -19,6 +19,10 @@ class SpectralEstimator {
   /// [m].
   double largest_frequency(const State& state, std::span<const Vec3> walls, double L);
 
+  /// The last vector, which a resumed run must put back to repeat the same bits.
+  Field<Double4>& vector() { return vector_; }
+  const Field<Double4>& vector() const { return vector_; }
+
  private:
   double lanczos(class LinearisedForces& K);
   double power_iteration(class LinearisedForces& K);

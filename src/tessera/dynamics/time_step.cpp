@@ -87,9 +87,10 @@ double StepControl::next(std::int64_t step, double time, const State& state, std
   return memory_.dt > rest * (1.0 - 1e-9) ? rest : memory_.dt;
 }
 
-void StepControl::restore(const Memory& memory) {
+void StepControl::restore(const Memory& memory, Field<Double4> start_vector) {
   memory_ = memory;
   limit_ = memory.limit;
+  estimator_.vector() = std::move(start_vector);
 }
 
 }  // namespace tessera

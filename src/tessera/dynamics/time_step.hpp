@@ -30,7 +30,8 @@ class StepControl {
     std::int64_t estimated_at = 0, interval = 0;
   };
   const Memory& memory() const { return memory_; }
-  void restore(const Memory& memory);
+  const Field<Double4>& start_vector() const { return estimator_.vector(); }
+  void restore(const Memory& memory, Field<Double4> start_vector);
 
  private:
   void estimate(std::int64_t step, const State& state, std::span<const Vec3> walls);

@@ -42,6 +42,10 @@ void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
   });
 }
 
+void Forces::restore_previous_deformation(Field<Columns> F) {
+  if (!F.empty()) F_ = std::move(F);  // evaluate() moves it into its place
+}
+
 void Forces::strain(State& state, const ExternalAction& action) {
   const System& s = system_;
   if (!s.viscosity.empty()) std::swap(F_, viscous_.F_previous);

@@ -40,9 +40,10 @@ class Forces {
   };
   Internal internal(const State& state) const;
 
-  /// What has to be kept so that a resumed run repeats the same bits; empty without viscosity.
-  ViscousMemory& viscous_memory() { return viscous_; }
-  const ViscousMemory& viscous_memory() const { return viscous_; }
+  /// The deformation one step ago, from which viscous stresses take their rate; empty without viscosity.
+  const Field<Columns>& previous_deformation() const { return viscous_.F_previous; }
+  /// Puts it back before the state of a checkpoint is evaluated again.
+  void restore_previous_deformation(Field<Columns> F);
 
  private:
   void strain(State& state, const ExternalAction& action);

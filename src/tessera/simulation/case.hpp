@@ -40,8 +40,8 @@ struct BodySpec {
 /// A case: everything that a run depends on, in SI units.
 struct Case {
   std::string title;
-  std::string file;      // the path as given
-  std::string effective; // the case as TOML text with all defaults filled in
+  std::string file;       // the path as given
+  std::string effective;  // the case as TOML text with all defaults filled in
   MethodSpec method;
   std::vector<BodySpec> bodies;
   std::vector<Material> materials;

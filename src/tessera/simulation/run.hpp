@@ -8,11 +8,11 @@ namespace tessera {
 
 /// How a run is carried out, apart from what the case says.
 struct RunOptions {
-  std::string directory;  // result folder
-  int threads = 0;        // 0: as the environment says
-  bool overwrite = false; // replace the folder if it exists
-  bool resume = false;    // go on from its checkpoint
-  bool quiet = false;     // no progress
+  std::string directory;   // result folder
+  int threads = 0;         // 0: as the environment says
+  bool overwrite = false;  // replace the folder if it exists
+  bool resume = false;     // go on from its checkpoint
+  bool quiet = false;      // no progress
 };
 
 /// Runs a case from set-up to summary. Throws Error subclasses; the result folder then holds what was written so

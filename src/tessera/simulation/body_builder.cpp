@@ -1,0 +1,238 @@
+#include "tessera/simulation/body_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tessera/discretization/delaunay.hpp"
+#include "tessera/discretization/rows.hpp"
+#include "tessera/discretization/voronoi.hpp"
+#include "tessera/tessellation/cells.hpp"
+
+namespace tessera {
+
+namespace {
+
+std::vector<const BoundaryCondition*> pointers(const std::vector<BoundaryCondition>& conditions) {
+  std::vector<const BoundaryCondition*> list;
+  for (const BoundaryCondition& c : conditions) list.push_back(&c);
+  return list;
+}
+
+/// In two dimensions a lattice has one layer of cells, so its spacing counts in the plane only.
+ParticleSpec in_plane(const BodySpec& body, const Solid& solid, Placement placement) {
+  ParticleSpec spec = body.particles;
+  auto* lattice = std::get_if<LatticeSpec>(&spec.source);
+  if (lattice == nullptr) return spec;
+  const int layers = placement == Placement::vertices ? 2 : 1;
+  if (lattice->spacing) {
+    const Vec3 size = solid.upper - solid.lower;
+    const auto count = [&](double length) {
+      return std::max(1, static_cast<int>(std::lround(length / *lattice->spacing))) + layers - 1;
+    };
+    lattice->counts = std::array<int, 3>{count(size.x), count(size.y), layers};
+    lattice->spacing.reset();
+  } else {
+    (*lattice->counts)[2] = layers;
+  }
+  return spec;
+}
+
+PointSet points_of(const Case& c, const BodySpec& body, const Solid& solid) {
+  const Placement placement =
+      c.method.formulation == Formulation::delaunay ? Placement::vertices : Placement::cell_centres;
+  if (c.method.dimension == 3) return place_particles(body.particles, solid, placement);
+  PointSet points = place_particles(in_plane(body, solid, placement), solid, placement);
+  if (placement == Placement::cell_centres)
+    for (Vec3& X : points.points) X.z = 0.5 * (solid.lower.z + solid.upper.z);
+  return points;
+}
+
+std::vector<Vec3> permuted(const std::vector<Vec3>& points, const std::vector<Index>& order) {
+  std::vector<Vec3> result;
+  result.reserve(points.size());
+  for (Index i : order) result.push_back(points[static_cast<std::size_t>(i)]);
+  return result;
+}
+
+std::vector<std::string> sorted_names(const std::vector<std::vector<std::string>>& sides) {
+  std::set<std::string> names;
+  for (const auto& side : sides) names.insert(side.begin(), side.end());
+  return {names.begin(), names.end()};
+}
+
+Surface voronoi_surface(const BodySpec& body, const Solid& solid, const Cells& cells) {
+  Surface s;
+  s.body = body.name;
+  s.lower = solid.lower;
+  s.upper = solid.upper;
+  for (const Side& side : solid.sides) s.side_names.push_back(side.names);
+  s.known_names = side_names(solid);
+  for (const BoundaryFace& f : cells.boundary) s.pieces.push_back({f.centroid, normalized(f.area), f.side, {}});
+  return s;
+}
+
+Surface delaunay_surface(const BodySpec& body, const TetrahedralMesh& mesh) {
+  Surface s;
+  s.body = body.name;
+  s.side_names = mesh.side_names;
+  s.known_names = sorted_names(mesh.side_names);
+  s.lower = s.upper = mesh.points.front();
+  for (const Vec3& X : mesh.points)
+    for (int i = 0; i < 3; ++i) {
+      s.lower[i] = std::min(s.lower[i], X[i]);
+      s.upper[i] = std::max(s.upper[i], X[i]);
+    }
+  for (const BoundaryTriangle& t : mesh.boundary) {
+    const Vec3 &a = mesh.points[static_cast<std::size_t>(t.vertices[0])],
+               &b = mesh.points[static_cast<std::size_t>(t.vertices[1])],
+               &c = mesh.points[static_cast<std::size_t>(t.vertices[2])];
+    s.pieces.push_back({(1.0 / 3.0) * (a + b + c),
+                        normalized(cross(b - a, c - a)),
+                        t.side,
+                        {t.vertices[0], t.vertices[1], t.vertices[2]}});
+  }
+  return s;
+}
+
+Discretization discretize(const MethodSpec& method, std::span<const Vec3> X, const Cells& cells,
+                          const std::vector<Mat3>& D) {
+  switch (method.boundary) {
+    case BoundaryTreatment::variational:
+      return discretize_ghosts(X, cells, D, GhostForce::variational);
+    case BoundaryTreatment::quasi_static:
+      return discretize_ghosts(X, cells, D, GhostForce::quasi_static);
+    case BoundaryTreatment::consistent:
+      break;
+  }
+  return discretize_consistent(X, cells, D);
+}
+
+/// A traction along a component whose motion is prescribed would have no effect.
+void refuse_loads_on_held_components(const BuiltBody& b, double end) {
+  for (const LoadedPiece& l : b.loaded) {
+    const auto i = static_cast<std::size_t>(l.piece);
+    const Mat3& D = b.pieces[i].D;
+    if (is_zero(D)) continue;
+    const SurfacePiece& piece = b.surface.pieces[i];
+    for (const double t : {0.0, 0.37 * end, end}) {
+      Vec3 T;
+      if (const auto* p = std::get_if<NominalPressure>(&l.condition->kind))
+        T = -p->pressure(t, piece.centroid) * piece.N;
+      else
+        T = evaluate(std::get<NominalTraction>(l.condition->kind).components, t, piece.centroid);
+      if (norm(D * T) > 1e-9 * norm(T))
+        throw InputError(
+            l.condition->origin,
+            fmt::format(
+                "loads a component of the boundary face at ({:g}, {:g}, {:g}) whose motion the [[boundary]] entry "
+                "at line {} prescribes, so it would have no effect; take the face out of one of the two",
+                piece.centroid.x, piece.centroid.y, piece.centroid.z,
+                b.pieces[i].parts.front().condition->origin.line));
+    }
+  }
+}
+
+BuiltBody build_voronoi(const Case& c, const BodySpec& body, const Solid& solid,
+                        const std::vector<BoundaryCondition>& conditions) {
+  BuiltBody b;
+  const PointSet given = points_of(c, body, solid);
+  b.user_number = hilbert_order(given.points);
+  const std::vector<Vec3> X = permuted(given.points, b.user_number);
+  const Cells cells = voronoi_cells(X, solid);
+  b.surface = voronoi_surface(body, solid, cells);
+
+  b.pieces = constrain_faces(b.surface, pointers(conditions));
+  b.loaded = load_pieces(b.surface, pointers(conditions));
+  std::vector<Mat3> D;
+  for (const PointConstraint& p : b.pieces) D.push_back(p.D);
+  b.d = discretize(c.method, X, cells, D);
+  for (const BoundaryNode& f : b.d.nodes) b.constraints.push_back(b.pieces[static_cast<std::size_t>(f.site)]);
+  b.identities = identities_of_voronoi(b.d, cells, solid.volume);
+  refuse_loads_on_held_components(b, c.time.end);
+  if (c.output.fields.cells) {
+    std::vector<Polyhedron> polyhedra = voronoi_polyhedra(X, solid);
+    for (Polyhedron& p : polyhedra) p.particle = b.user_number[static_cast<std::size_t>(p.particle)];
+    b.cells = std::move(polyhedra);
+  }
+  return b;
+}
+
+/// Renumbers a mesh's vertices along the space-filling curve.
+std::vector<Index> reorder(TetrahedralMesh& mesh) {
+  const std::vector<Index> order = hilbert_order(mesh.points);
+  std::vector<Index> place(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) place[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);
+  mesh.points = permuted(mesh.points, order);
+  for (auto& t : mesh.tetrahedra)
+    for (Index& v : t) v = place[static_cast<std::size_t>(v)];
+  for (BoundaryTriangle& t : mesh.boundary)
+    for (Index& v : t.vertices) v = place[static_cast<std::size_t>(v)];
+  return order;
+}
+
+double volume_of(const TetrahedralMesh& mesh) {
+  double six_volumes = 0.0;
+  for (const auto& t : mesh.tetrahedra) {
+    const Vec3& x = mesh.points[static_cast<std::size_t>(t[0])];
+    const auto edge = [&](std::size_t i) { return mesh.points[static_cast<std::size_t>(t[i])] - x; };
+    six_volumes += dot(edge(1), cross(edge(2), edge(3)));
+  }
+  return six_volumes / 6.0;
+}
+
+BuiltBody build_delaunay(const Case& c, const BodySpec& body, const std::optional<Solid>& solid,
+                         const std::vector<BoundaryCondition>& conditions) {
+  BuiltBody b;
+  const auto* file = std::get_if<MeshFileSpec>(&body.particles.source);
+  TetrahedralMesh mesh =
+      file != nullptr ? read_mesh(file->path) : tetrahedralize(points_of(c, body, *solid), *solid, c.method.tetrahedra);
+  if (c.output.fields.cells) b.cells = mesh.tetrahedra;
+  b.user_number = reorder(mesh);
+  b.surface = delaunay_surface(body, mesh);
+
+  const std::vector<PointConstraint> particles =
+      constrain_particles(b.surface, mesh.points, pointers(conditions), c.time.end);
+  b.loaded = load_pieces(b.surface, pointers(conditions));
+  std::vector<ParticleConstraint> constraints;
+  for (std::size_t a = 0; a < particles.size(); ++a) {
+    if (is_zero(particles[a].D)) continue;
+    constraints.push_back({static_cast<Index>(a), particles[a].D});
+    b.constraints.push_back(particles[a]);
+  }
+  b.d = discretize_delaunay(mesh, constraints);
+  b.identities = identities_of_delaunay(b.d, solid ? solid->volume : volume_of(mesh));
+  return b;
+}
+
+}  // namespace
+
+std::vector<BoundaryCondition> conditions_on(const Case& c, const BodySpec& body) {
+  std::vector<BoundaryCondition> conditions;
+  for (const BoundaryCondition& condition : c.boundary)
+    if (condition.body.empty() || condition.body == body.name) conditions.push_back(condition);
+  if (c.method.dimension == 2) {
+    BoundaryCondition slab;
+    slab.body = body.name;
+    slab.origin = slab.where.origin = body.origin;
+    slab.where.items = {"-z", "+z"};
+    slab.kind = Condition::symmetric;
+    conditions.push_back(slab);
+  }
+  return conditions;
+}
+
+BuiltBody build_body(const Case& c, const BodySpec& body, const std::vector<BoundaryCondition>& conditions) {
+  std::optional<Solid> solid;
+  if (body.shape) solid = build_solid(*body.shape);
+  if (c.method.formulation == Formulation::voronoi && !solid)
+    throw InputError(body.origin, "a voronoi body needs a shape");
+  BuiltBody b = c.method.formulation == Formulation::voronoi ? build_voronoi(c, body, *solid, conditions)
+                                                             : build_delaunay(c, body, solid, conditions);
+  b.solid = std::move(solid);
+  return b;
+}
+
+}  // namespace tessera

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tessera/output/progress.hpp"
+#include "tessera/output/summary.hpp"
+#include "tessera/parallel/parallel.hpp"
+#include "tessera/simulation/engine.hpp"
+#include "tessera/simulation/run.hpp"
+
+namespace tessera {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Wall-clock seconds of one evaluation of the forces, the best of a few.
+double seconds_per_step(const Model& model) {
+  State state = reference_state(model.system);
+  Forces forces(model.system);
+  double best = 1e300;
+  for (int i = 0; i < 5; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    forces.evaluate(state, {model.loads.motion.positions(), {}, model.loads.gravity}, 0.0);
+    best = std::min(best, seconds_since(start));
+  }
+  return best;
+}
+
+struct Findings {
+  std::int64_t particles = 0, bonds = 0, boundary_faces = 0, constrained = 0;
+  double volume = 0.0, shortest = 0.0, dt = 0.0, limit = 0.0, setup_seconds = 0.0, run_seconds = 0.0;
+  double steps = 0.0;
+  std::int64_t memory = 0;
+  Identities identities;
+};
+
+Findings examine(const Case& c) {
+  const auto start = std::chrono::steady_clock::now();
+  Model model = build_model(c);
+  Findings f;
+  f.setup_seconds = seconds_since(start);
+  const Discretization& d = model.system.d;
+  f.particles = d.particles();
+  f.bonds = d.bonds.size() / 2;
+  f.boundary_faces = model.boundary_faces;
+  f.constrained = static_cast<std::int64_t>(d.nodes.size() + d.constraints.size());
+  f.volume = d.body_volume;
+  f.shortest = shortest_length(d);
+  f.identities = model.identities;
+  // The control of a copy that is never refused: check also tells the limit to those whose fixed step is too long.
+  TimeSpec spec = c.time;
+  if (auto* fixed = std::get_if<FixedStep>(&spec.step)) fixed->force = true;
+  StepControl control(spec, model.system, reference_state(model.system), model.loads.motion.positions());
+  f.dt = control.memory().dt;
+  SpectralEstimator estimator(model.system);
+  const double omega =
+      estimator.largest_frequency(reference_state(model.system), model.loads.motion.positions(), f.shortest);
+  f.limit = omega > 0.0 ? stable_step(model.system, omega) : 0.0;
+  f.steps = c.time.end > 0.0 ? std::ceil(c.time.end / f.dt) : 0.0;
+  f.run_seconds = f.steps * seconds_per_step(model);
+  f.memory = peak_memory_bytes();
+  return f;
+}
+
+std::string to_text(const Findings& f) {
+  std::string text = fmt::format(
+      "particles        {}\nbonds            {}\nboundary faces   {} ({} faces or particles with prescribed motion)\n"
+      "volume           {:.10g} m3\nshortest bond    {:.4g} m\n",
+      f.particles, f.bonds, f.boundary_faces, f.constrained, f.volume, f.shortest);
+  text += fmt::format("time step        {:.4g} s (spectral limit {:.4g} s)\nsteps            {:.0f}\n", f.dt, f.limit,
+                      f.steps);
+  text += fmt::format(
+      "set-up           {:.2g} s\nestimated run    {}\nmemory           {:.3g} MB\nidentities (largest relative "
+      "violation)\n",
+      f.setup_seconds, duration_text(f.run_seconds), static_cast<double>(f.memory) / 1e6);
+  for (const auto& [name, value] : f.identities) text += fmt::format("  {:<14} {:.1e}\n", name, value);
+  return text;
+}
+
+std::string to_json(const Findings& f) {
+  nlohmann::ordered_json j;
+  j["particles"] = f.particles;
+  j["bonds"] = f.bonds;
+  j["boundary_faces"] = f.boundary_faces;
+  j["constrained"] = f.constrained;
+  j["volume"] = f.volume;
+  j["shortest_bond"] = f.shortest;
+  j["dt"] = f.dt;
+  j["dt_limit"] = f.limit;
+  j["steps"] = f.steps;
+  j["setup_seconds"] = f.setup_seconds;
+  j["estimated_run_seconds"] = f.run_seconds;
+  j["peak_memory_bytes"] = f.memory;
+  j["identities"] = f.identities;
+  return j.dump(2) + "\n";
+}
+
+}  // namespace
+
+CheckReport check_case(const Case& c, int threads) {
+  parallel::set_threads(threads);
+  const Findings findings = examine(c);
+  require(findings.identities);
+  return {to_text(findings), to_json(findings)};
+}
+
+}  // namespace tessera

@@ -1,0 +1,209 @@
+#include "tessera/simulation/engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+
+namespace {
+
+// Energy that is missing or too much, relative to the largest energy seen, at which a run has lost its way.
+constexpr double hopeless_energy_error = 0.5;
+// Energies below this fraction of E V (a strain of 1e-7) are too close to round-off to judge.
+constexpr double negligible_strain_energy = 1e-14;
+
+State initial_state(const Model& model) {
+  State state = reference_state(model.system);
+  for (std::size_t a = 0; a < model.initial_displacement.size(); ++a) {
+    state.x[a] += to_kernel(model.initial_displacement[a]);
+    state.v[a] = to_kernel(model.initial_velocity[a]);
+  }
+  return state;
+}
+
+std::vector<Vec3> copy_of(std::span<const Vec3> v) { return {v.begin(), v.end()}; }
+
+double elastic_scale(const System& s) {
+  double scale = 0.0;
+  for (const MaterialRange& r : s.ranges)
+    for (Index a = r.begin; a < r.end; ++a)
+      scale += s.materials[static_cast<std::size_t>(r.material)].young * s.d.volume[static_cast<std::size_t>(a)];
+  return scale;
+}
+
+}  // namespace
+
+Engine::Engine(Model& model, const TimeSpec& spec)
+    : model_(model),
+      spec_(spec),
+      state_(initial_state(model)),
+      forces_(model.system),
+      leapfrog_(model.system, model.loads, spec.damping),
+      ledger_(model.system, model.loads),
+      control_(spec, model.system, state_, model.loads.motion.positions()),
+      walls_(copy_of(model.loads.motion.positions())) {
+  // Constrained particles start where they are told to be.
+  const auto& constraints = model.system.d.constraints;
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    Double4& x = state_.x[static_cast<std::size_t>(constraints[i].particle)];
+    x = to_kernel(constraints[i].D * (model.loads.motion.positions()[i] - to_vec3(x)) + to_vec3(x));
+  }
+  x0_.assign(state_.x.begin(), state_.x.begin() + model.system.particles());
+  evaluate(0.0);
+  verify_deformation();
+}
+
+void Engine::evaluate(double dt) {
+  model_.loads.tractions.evaluate(time_);
+  walls_ = copy_of(model_.loads.motion.positions());
+  forces_.evaluate(state_, {walls_, model_.loads.tractions.forces(), model_.loads.gravity}, dt);
+}
+
+void Engine::prepare() {
+  const double before = dt_.after;
+  if (!finished()) {
+    dt_ = {before, control_.next(step_, time_, state_, walls_)};
+    if (!started_) dt_.before = dt_.after;
+    model_.loads.motion.move_to(time_ + dt_.after);
+    if (!started_) leapfrog_.start(state_, forces_, dt_.after);
+    started_ = true;
+  } else if (spec_.end > 0.0) {
+    dt_ = {before, before};  // the velocities at the end need what would come next
+    model_.loads.motion.move_to(time_ + dt_.after);
+  }
+  leapfrog_.prepare(state_, forces_, dt_);
+  ledger_.record(state_, forces_, leapfrog_, walls_, dt_, step_ > 0 ? before : 0.0);
+  if (step_ == 0) initial_energy_ = stored_energy() + motion().kinetic;
+}
+
+void Engine::advance() {
+  leapfrog_.step(state_, forces_, dt_);
+  ++step_;
+  const double rest = spec_.end - time_;
+  time_ = dt_.after >= rest ? spec_.end : time_ + dt_.after;
+  evaluate(dt_.after);
+  ledger_.add_dissipated(forces_.sums().dissipated);
+}
+
+Motion Engine::motion() const {
+  return total_motion(model_.system, state_, forces_, leapfrog_, dt_, 0, model_.system.particles());
+}
+
+double Engine::stored_energy() const { return forces_.sums().internal + forces_.sums().contact; }
+
+Momentum Engine::momentum() const { return to_momentum(motion()); }
+
+EnergyLedger Engine::energies() const {
+  EnergyLedger e;
+  e.kinetic = motion().kinetic;
+  e.internal = forces_.sums().internal;
+  e.contact = forces_.sums().contact;
+  e.external_work = ledger_.external_work() + gravity_work(model_.system, state_, x0_, model_.loads.gravity);
+  e.dissipated = ledger_.dissipated();
+  e.initial = initial_energy_;
+  e.scale = std::max(energy_scale_, e.kinetic + e.internal + e.contact + e.dissipated);
+  return e;
+}
+
+const std::vector<Vec3>& Engine::reactions() const {
+  return model_.system.d.constraints.empty() ? forces_.reactions() : leapfrog_.reactions();
+}
+
+double Engine::largest_force() const {
+  std::vector<Mat3> free(state_.v.size(), identity());
+  for (const ParticleConstraint& c : model_.system.d.constraints)
+    free[static_cast<std::size_t>(c.particle)] = identity() - c.D;
+  double largest = 0.0;
+  for (std::size_t a = 0; a < free.size(); ++a)
+    largest = std::max(largest, norm(free[a] * to_vec3(forces_.total()[a])));
+  return largest;
+}
+
+Snapshot Engine::snapshot() const {
+  const System& s = model_.system;
+  const Forces::Internal internal = forces_.internal(state_);
+  const auto n = static_cast<std::size_t>(s.particles());
+  Snapshot shot;
+  shot.time = time_;
+  shot.step = step_;
+  shot.body.resize(n);
+  shot.material.resize(n);
+  shot.volume.resize(n);
+  shot.mass.resize(n);
+  shot.energy_density.resize(n);
+  shot.deformation_gradient.resize(n);
+  shot.first_piola_kirchhoff.resize(n);
+  for (auto* vectors : {&shot.reference_position, &shot.position, &shot.velocity, &shot.force, &shot.internal_force,
+                        &shot.contact_force, &shot.external_force})
+    vectors->resize(n);
+
+  std::vector<Vec3> external(n);
+  for (const NodalForce& l : model_.loads.tractions.forces()) external[static_cast<std::size_t>(l.particle)] += l.force;
+  for (std::size_t a = 0; a < n; ++a) {
+    const auto u = static_cast<std::size_t>(model_.user_number[a]);
+    const Material& m = s.materials[static_cast<std::size_t>(model_.material_of[a])];
+    const Vec3 v = leapfrog_.velocity(state_, forces_, dt_, static_cast<Index>(a));
+    const Vec3 weight = s.mass[a] * model_.loads.gravity, drag = (-leapfrog_.damping() * s.mass[a]) * v;
+    const Vec3 total = to_vec3(forces_.total()[a]);
+    shot.body[u] = model_.body_of[a];
+    shot.material[u] = model_.material_of[a];
+    shot.reference_position[u] = s.d.X[a];
+    shot.position[u] = to_vec3(state_.x[a]);
+    shot.velocity[u] = v;
+    shot.force[u] = total + drag;
+    shot.internal_force[u] = to_vec3(internal.force[a]);
+    shot.contact_force[u] = total - external[a] - weight - shot.internal_force[u];
+    shot.external_force[u] = external[a] + weight + drag;
+    shot.deformation_gradient[u] = to_mat3(forces_.deformation_gradient()[a]);
+    shot.first_piola_kirchhoff[u] = to_mat3(internal.P[a]);
+    shot.volume[u] = s.d.volume[a];
+    shot.mass[u] = s.mass[a];
+    shot.energy_density[u] =
+        std::visit([&](const auto& law) { return law.energy(shot.deformation_gradient[u]); }, m.law);
+  }
+  for (std::size_t i = 0; i < s.d.constraints.size(); ++i) {
+    const auto u = static_cast<std::size_t>(model_.user_number[static_cast<std::size_t>(s.d.constraints[i].particle)]);
+    shot.force[u] -= leapfrog_.reactions()[i];
+  }
+  return shot;
+}
+
+void Engine::fail(Index particle, const std::string& reason) const {
+  const auto a = static_cast<std::size_t>(particle);
+  const Vec3 x = to_vec3(state_.x[a]);
+  throw RunError(fmt::format(
+      "step {}, t = {:g} s: {} at particle {} of body \"{}\", now at ({:g}, {:g}, {:g}); a smaller step "
+      "(time.safety), finer particles or slower loading may help",
+      step_, time_, reason, model_.user_number[a] - model_.bodies[static_cast<std::size_t>(model_.body_of[a])].first,
+      model_.bodies[static_cast<std::size_t>(model_.body_of[a])].name, x.x, x.y, x.z));
+}
+
+void Engine::verify_deformation() const {
+  if (forces_.sums().finite && forces_.sums().smallest_J > 0.0) return;
+  const auto& F = forces_.deformation_gradient();
+  for (std::size_t a = 0; a < F.size(); ++a)
+    if (!std::isfinite(determinant(to_mat3(F[a])))) fail(static_cast<Index>(a), "the deformation is not finite");
+  for (std::size_t a = 0; a < F.size(); ++a)
+    if (const double J = determinant(to_mat3(F[a])); J <= 0.0)
+      fail(static_cast<Index>(a), fmt::format("the cell is inverted (J = {:.3g})", J));
+}
+
+void Engine::verify_energy() {
+  const EnergyLedger e = energies();
+  energy_scale_ = e.scale;
+  // Forces of [V 42] and direct reactions have no potential, so their ledger need not close.
+  if (model_.system.d.boundary_force == BoundaryForce::direct) return;
+  if (e.scale < negligible_strain_energy * elastic_scale(model_.system) || e.relative_error() < hopeless_energy_error)
+    return;
+  Index fastest = 0;
+  for (std::size_t a = 0; a < state_.v.size(); ++a)
+    if (dot3(state_.v[a], state_.v[a]) >
+        dot3(state_.v[static_cast<std::size_t>(fastest)], state_.v[static_cast<std::size_t>(fastest)]))
+      fastest = static_cast<Index>(a);
+  fail(fastest, fmt::format("the energy grows out of the ledger (error {:.2g} of the largest energy), fastest",
+                            e.relative_error()));
+}
+
+}  // namespace tessera

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tessera/dynamics/leapfrog.hpp"
+#include "tessera/dynamics/ledger.hpp"
+#include "tessera/dynamics/time_step.hpp"
+#include "tessera/output/checkpoint.hpp"
+#include "tessera/output/snapshot.hpp"
+#include "tessera/simulation/model.hpp"
+
+namespace tessera {
+
+/// A model in motion. One round of the loop is
+///
+///     prepare()   choose the step, move what is prescribed, settle the accounts: the present state can be observed
+///     advance()   kick, drift, forces at the new time
+///
+/// checkpoint() belongs between advance() and prepare().
+class Engine {
+ public:
+  /// Puts the model into its initial state and evaluates the forces. Throws InputError for a fixed step above the limit
+  /// and RunError when the initial state is no good.
+  Engine(Model& model, const TimeSpec& spec);
+
+  bool finished() const { return time_ >= spec_.end; }
+  void prepare();
+  void advance();
+
+  double time() const { return time_; }         // [s]
+  std::int64_t steps() const { return step_; }  // done
+  double dt() const { return dt_.after; }       // of the step to come (or of the last one at the end) [s]
+  double step_limit() const { return control_.limit(); }
+
+  // Observations; prepare() was called for this time.
+  EnergyLedger energies() const;
+  Momentum momentum() const;
+  Snapshot snapshot() const;
+  /// Force on what prescribes the motion of each boundary node (voronoi) or constrained particle (delaunay) [N].
+  const std::vector<Vec3>& reactions() const;
+  /// Largest force on a particle, components without prescribed motion only [N].
+  double largest_force() const;
+
+  /// Throws RunError (step, time, particle, position, reason) when the state is not finite, a cell is inverted, or the
+  /// energy grows out of the ledger.
+  void verify_deformation() const;
+  void verify_energy();
+
+  Checkpoint checkpoint() const;
+  /// Goes back to a checkpoint of the same model. Throws InputError when it belongs to another one.
+  void restore(const Checkpoint& checkpoint);
+
+ private:
+  void evaluate(double dt);
+  Momentum to_momentum(const Motion& motion) const { return {motion.linear, motion.angular}; }
+  Motion motion() const;
+  double stored_energy() const;
+  [[noreturn]] void fail(Index particle, const std::string& reason) const;
+  void check_same_model(const Checkpoint& c) const;
+
+  Model& model_;
+  TimeSpec spec_;
+  State state_;
+  Field<Double4> x0_;  // positions at the start, where the work of gravity begins
+  Forces forces_;
+  Leapfrog leapfrog_;
+  Ledger ledger_;
+  StepControl control_;
+  std::vector<Vec3> walls_;  // prescribed points at the present time
+  double time_ = 0.0;
+  std::int64_t step_ = 0;
+  StepPair dt_;
+  bool started_ = false;  // velocities are half a step behind
+  double initial_energy_ = 0.0;
+  double energy_scale_ = 0.0;
+};
+
+}  // namespace tessera

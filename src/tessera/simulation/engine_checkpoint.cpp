@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tessera/simulation/engine.hpp"
+
+namespace tessera {
+
+namespace {
+
+std::vector<double> flat(const Double4* v, std::size_t n) {
+  std::vector<double> values;
+  values.reserve(3 * n);
+  for (std::size_t i = 0; i < n; ++i) values.insert(values.end(), {v[i][0], v[i][1], v[i][2]});
+  return values;
+}
+
+std::vector<double> flat(const std::vector<Vec3>& v) {
+  std::vector<double> values;
+  values.reserve(3 * v.size());
+  for (const Vec3& p : v) values.insert(values.end(), {p.x, p.y, p.z});
+  return values;
+}
+
+std::vector<double> flat(const Field<Columns>& tensors) {
+  std::vector<double> values;
+  values.reserve(9 * tensors.size());
+  for (const Columns& t : tensors) {
+    const Mat3 m = to_mat3(t);
+    values.insert(values.end(), m.m.begin(), m.m.end());
+  }
+  return values;
+}
+
+Field<Double4> vectors(const std::vector<double>& values) {
+  Field<Double4> v;
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+    v.push_back(Double4{values[i], values[i + 1], values[i + 2], 0.0});
+  return v;
+}
+
+std::vector<Vec3> positions(const std::vector<double>& values) {
+  std::vector<Vec3> v;
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3) v.push_back({values[i], values[i + 1], values[i + 2]});
+  return v;
+}
+
+Field<Columns> tensors(const std::vector<double>& values) {
+  Field<Columns> t;
+  for (std::size_t i = 0; i + 8 < values.size(); i += 9) {
+    Mat3 m;
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i), 9, m.m.begin());
+    t.push_back(to_kernel(m));
+  }
+  return t;
+}
+
+}  // namespace
+
+Checkpoint Engine::checkpoint() const {
+  const auto n = static_cast<std::size_t>(model_.system.particles());
+  const StepControl::Memory& step = control_.memory();
+  const Ledger::Books books = ledger_.books();
+  Checkpoint c;
+  c.arrays["reference"] = flat(model_.system.d.X);
+  c.arrays["position"] = flat(state_.x.data(), n);
+  c.arrays["velocity"] = flat(state_.v.data(), n);
+  c.arrays["initial_position"] = flat(x0_.data(), n);
+  c.arrays["time"] = {time_, dt_.before, dt_.after, step.dt, step.limit, model_.loads.motion.time()};
+  c.arrays["energy"] = {books.accounts[0], books.accounts[1], books.accounts[2], initial_energy_, energy_scale_};
+  c.arrays["integrated_motion"] = flat(model_.loads.motion.integrated());
+  c.arrays["spectral_vector"] = flat(control_.start_vector().data(), control_.start_vector().size());
+  for (std::size_t i = 0; i < books.last.size(); ++i) {
+    c.arrays[fmt::format("last_force_{}", i)] = flat(books.last[i].force);
+    c.arrays[fmt::format("last_place_{}", i)] = flat(books.last[i].place);
+  }
+  c.arrays["previous_deformation"] = flat(forces_.previous_deformation());
+  c.integers["step"] = {step_, step.estimated_at, step.interval, started_ ? 1 : 0};
+  return c;
+}
+
+void Engine::check_same_model(const Checkpoint& c) const {
+  if (c.array("reference") == flat(model_.system.d.X)) return;
+  throw InputError(
+      {c.source, 0, 0, ""},
+      "the checkpoint belongs to other particles than this case makes; resume with the case that wrote it");
+}
+
+void Engine::restore(const Checkpoint& c) {
+  check_same_model(c);
+  const auto n = static_cast<std::size_t>(model_.system.particles());
+  const std::vector<double>& time = c.array("time", 6);
+  const std::vector<double>& energy = c.array("energy", 5);
+  const std::vector<std::int64_t>& step = c.integer("step", 4);
+  const Field<Double4> x = vectors(c.array("position", 3 * n));
+  std::copy(x.begin(), x.end(), state_.x.begin());
+  state_.v = vectors(c.array("velocity", 3 * n));
+  x0_ = vectors(c.array("initial_position", 3 * n));
+  time_ = time[0];
+  dt_ = {time[1], time[2]};
+  step_ = step[0];
+  started_ = step[3] != 0;
+  control_.restore({time[3], time[4], step[1], step[2]}, vectors(c.array("spectral_vector")));
+  initial_energy_ = energy[3];
+  energy_scale_ = energy[4];
+
+  model_.loads.motion.restore(time[5],
+                              positions(c.array("integrated_motion", 3 * model_.loads.motion.integrated().size())));
+
+  // The viscous stress takes its rate from the deformation one step ago.
+  forces_.restore_previous_deformation(
+      tensors(c.array("previous_deformation", 9 * forces_.previous_deformation().size())));
+  evaluate(started_ ? dt_.after : 0.0);
+
+  Ledger::Books books{{energy[0], energy[1], energy[2]}, {}};
+  for (std::size_t i = 0; i < books.last.size(); ++i) {
+    books.last[i].force = positions(c.array(fmt::format("last_force_{}", i)));
+    books.last[i].place = positions(c.array(fmt::format("last_place_{}", i)));
+  }
+  ledger_.restore(std::move(books));
+}
+
+}  // namespace tessera

@@ -1,0 +1,131 @@
+#include "tessera/simulation/model.hpp"
+
+#include "tessera/simulation/body_builder.hpp"
+#include "tessera/simulation/overlap.hpp"
+
+namespace tessera {
+
+namespace {
+
+/// Initial displacement and velocity at a material point of a body; entries add up.
+struct InitialMotion {
+  std::vector<const InitialCondition*> entries;
+
+  InitialMotion(const Case& c, const BodySpec& body) {
+    for (const InitialCondition& i : c.initial)
+      if (i.body.empty() || i.body == body.name) entries.push_back(&i);
+  }
+  Vec3 displacement(const Vec3& X) const {
+    Vec3 u;
+    for (const InitialCondition* e : entries) u += evaluate(e->displacement, 0.0, X);
+    return u;
+  }
+  Vec3 velocity(const Vec3& X) const {
+    Vec3 v;
+    for (const InitialCondition* e : entries) v += evaluate(e->velocity, 0.0, X);
+    return v;
+  }
+};
+
+/// Points with prescribed motion and loaded sites, gathered over the bodies.
+struct LoadParts {
+  std::vector<Vec3> X, initial;
+  std::vector<PointConstraint> constraints;
+  std::vector<LoadedSite> sites;
+};
+
+void collect_motion(LoadParts& parts, const BuiltBody& b, const InitialMotion& initial) {
+  std::vector<Vec3> points;
+  for (const BoundaryNode& f : b.d.nodes) points.push_back(f.wall);
+  for (const ParticleConstraint& c : b.d.constraints) points.push_back(b.d.X[static_cast<std::size_t>(c.particle)]);
+  for (const Vec3& X : points) {
+    parts.X.push_back(X);
+    parts.initial.push_back(initial.displacement(X));
+  }
+  parts.constraints.insert(parts.constraints.end(), b.constraints.begin(), b.constraints.end());
+}
+
+void collect_tractions(LoadParts& parts, const BuiltBody& b, Index first_site) {
+  // A Voronoi face is one site, a triangle three (its vertices).
+  const Index sites_per_piece = b.pieces.empty() ? 3 : 1;
+  for (const LoadedPiece& l : b.loaded)
+    for (Index k = 0; k < sites_per_piece; ++k) {
+      const Mat3 free = b.pieces.empty() ? identity() : identity() - b.pieces[static_cast<std::size_t>(l.piece)].D;
+      parts.sites.push_back({first_site + sites_per_piece * l.piece + k, free, l.condition});
+    }
+}
+
+void append_cells(std::optional<CellGeometry>& all, std::optional<CellGeometry> more, Index shift) {
+  if (!more) return;
+  if (auto* polyhedra = std::get_if<std::vector<Polyhedron>>(&*more)) {
+    for (Polyhedron& p : *polyhedra) p.particle += shift;
+    if (!all) all.emplace(std::vector<Polyhedron>{});
+    auto& list = std::get<std::vector<Polyhedron>>(*all);
+    list.insert(list.end(), polyhedra->begin(), polyhedra->end());
+  } else {
+    auto& tetrahedra = std::get<std::vector<std::array<Index, 4>>>(*more);
+    for (auto& t : tetrahedra)
+      for (Index& v : t) v += shift;
+    if (!all) all.emplace(std::vector<std::array<Index, 4>>{});
+    auto& list = std::get<std::vector<std::array<Index, 4>>>(*all);
+    list.insert(list.end(), tetrahedra.begin(), tetrahedra.end());
+  }
+}
+
+BodyModel place_body(const BuiltBody& b, const Discretization& before) {
+  BodyModel m;
+  m.name = b.surface.body;
+  m.first = before.particles();
+  m.last = m.first + b.d.particles();
+  m.surface = b.surface;
+  m.first_node = static_cast<Index>(before.nodes.size());
+  for (const BoundaryNode& f : b.d.nodes) m.node_piece.push_back(f.site);
+  m.first_constraint = static_cast<Index>(before.constraints.size());
+  m.last_constraint = m.first_constraint + static_cast<Index>(b.d.constraints.size());
+  return m;
+}
+
+}  // namespace
+
+const BodyModel& Model::body(const std::string& name) const {
+  for (const BodyModel& b : bodies)
+    if (b.name == name) return b;
+  return bodies.front();  // the reader has checked names; an empty one means the only body
+}
+
+Model build_model(const Case& c) {
+  Model model;
+  for (const BodySpec& spec : c.bodies) model.conditions.push_back(conditions_on(c, spec));
+  std::vector<BuiltBody> bodies;
+  for (std::size_t i = 0; i < c.bodies.size(); ++i) bodies.push_back(build_body(c, c.bodies[i], model.conditions[i]));
+  refuse_overlap(c.bodies, bodies);
+
+  Discretization all;
+  LoadParts parts;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    BuiltBody& b = bodies[i];
+    const InitialMotion initial(c, c.bodies[i]);
+    const Index shift = all.particles();
+    for (Index u : b.user_number) model.user_number.push_back(u + shift);
+    for (const Vec3& X : b.d.X) {
+      model.initial_displacement.push_back(initial.displacement(X));
+      model.initial_velocity.push_back(initial.velocity(X));
+      model.body_of.push_back(static_cast<Index>(i));
+      model.material_of.push_back(c.bodies[i].material);
+    }
+    collect_motion(parts, b, initial);
+    collect_tractions(parts, b, static_cast<Index>(all.sites.size()));
+    model.identities = worst_of(model.identities, b.identities);
+    model.boundary_faces += static_cast<Index>(b.surface.pieces.size());
+    append_cells(model.cells, std::move(b.cells), shift);
+    model.bodies.push_back(place_body(b, all));
+    append(all, std::move(b.d));
+  }
+  model.loads.motion = PrescribedMotion(parts.X, parts.constraints, parts.initial);
+  model.loads.tractions = Tractions(all, parts.sites);
+  model.loads.gravity = c.gravity;
+  model.system = make_system(std::move(all), c.materials, model.material_of);
+  return model;
+}
+
+}  // namespace tessera

@@ -1,0 +1,215 @@
+#include "tessera/simulation/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <optional>
+
+#include "tessera/base/version.hpp"
+#include "tessera/output/progress.hpp"
+#include "tessera/output/result_folder.hpp"
+#include "tessera/output/summary.hpp"
+#include "tessera/parallel/parallel.hpp"
+#include "tessera/simulation/engine.hpp"
+#include "tessera/simulation/recorder.hpp"
+#include "tessera/simulation/signals.hpp"
+
+namespace tessera {
+
+namespace {
+
+// Steps between looks at the energy, and between copies of the state to fall back to.
+constexpr std::int64_t energy_interval = 20, backup_interval = 200;
+
+/// Adds the wall-clock time of its life to an account [s].
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& account) : account_(account) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { account_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& account_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Says when a checkpoint is due, by simulated and by wall-clock time.
+class CheckpointTimer {
+ public:
+  CheckpointTimer(const CheckpointSpec& spec, double time) : spec_(spec), last_time_(time) {}
+
+  bool due(double time) {
+    const auto now = std::chrono::steady_clock::now();
+    const bool by_time = spec_.every_time && time - last_time_ >= *spec_.every_time * (1.0 - 1e-9);
+    const bool by_wall =
+        spec_.every_wall && std::chrono::duration<double>(now - last_wall_).count() >= *spec_.every_wall;
+    if (!by_time && !by_wall) return false;
+    last_time_ = time;
+    last_wall_ = now;
+    return true;
+  }
+
+ private:
+  CheckpointSpec spec_;
+  double last_time_;
+  std::chrono::steady_clock::time_point last_wall_ = std::chrono::steady_clock::now();
+};
+
+ExistingResult existing_result(const RunOptions& o) {
+  if (o.resume) return ExistingResult::resume;
+  return o.overwrite ? ExistingResult::overwrite : ExistingResult::refuse;
+}
+
+void write_effective_case(const Case& c, const std::string& directory) {
+  std::ofstream file(effective_case_path(directory));
+  file << c.effective;
+  if (!file.flush()) throw RunError("cannot write " + effective_case_path(directory));
+}
+
+/// One run from set-up to summary.
+class Run {
+ public:
+  Run(const Case& c, const RunOptions& options);
+  void execute();
+
+ private:
+  void steps();
+  void observe();
+  void keep_going();
+  void leave_last_good_state();
+  void summarise(const std::string& status, const std::string& message);
+
+  const Case& case_;
+  const RunOptions& options_;
+  WallSeconds wall_;
+  std::optional<Model> model_;
+  std::optional<Engine> engine_;
+  std::optional<Recorder> recorder_;
+  std::optional<Progress> progress_;
+  std::optional<CheckpointTimer> checkpoint_timer_;
+  std::int64_t first_step_ = 0;
+  Momentum first_momentum_;
+  bool first_momentum_known_ = false;
+  Checkpoint backup_;
+  StopSignals signals_;
+};
+
+Run::Run(const Case& c, const RunOptions& options) : case_(c), options_(options) {
+  const Stopwatch watch(wall_.setup);
+  parallel::set_threads(options.threads);
+  model_.emplace(build_model(c));
+  require(model_->identities);
+  engine_.emplace(*model_, c.time);
+  prepare_result_folder(options.directory, existing_result(options));
+  std::optional<ContinueFrom> from;
+  if (options.resume) {
+    engine_->restore(read_checkpoint(checkpoint_path(options.directory)));
+    from = ContinueFrom{engine_->time() - 0.5 * engine_->dt()};  // the state itself is written again
+  }
+  recorder_.emplace(c, *model_, *engine_, options.directory, from);
+  write_effective_case(c, options.directory);
+  first_step_ = engine_->steps();
+  const ProgressStyle style = options.quiet ? ProgressStyle::silent : progress_style(stderr);
+  progress_.emplace(stderr, style, c.time.end, model_->system.particles(), engine_->time(), first_step_);
+  checkpoint_timer_.emplace(c.output.checkpoint, engine_->time());
+  backup_ = engine_->checkpoint();
+}
+
+void Run::execute() {
+  try {
+    steps();
+  } catch (const Interrupted& e) {
+    progress_->interrupt();
+    write_checkpoint(checkpoint_path(options_.directory), engine_->checkpoint());
+    summarise("interrupted", e.what());
+    throw;
+  } catch (const RunError& e) {
+    progress_->interrupt();
+    leave_last_good_state();
+    summarise("failed", e.what());
+    throw;
+  }
+  recorder_->write(*engine_);
+  summarise("done", "");
+}
+
+void Run::steps() {
+  while (!engine_->finished()) {
+    keep_going();
+    engine_->prepare();
+    observe();
+    const Stopwatch watch(wall_.steps);
+    engine_->advance();
+    engine_->verify_deformation();
+  }
+  if (case_.output.checkpoint.every_time || case_.output.checkpoint.every_wall)
+    write_checkpoint(checkpoint_path(options_.directory), engine_->checkpoint());
+  engine_->prepare();
+  observe();
+  progress_->finish(engine_->time(), engine_->steps(), engine_->energies().relative_error());
+}
+
+/// Checkpoints, the backup to fall back to, and the wish to stop.
+void Run::keep_going() {
+  const Stopwatch watch(wall_.output);
+  if ((engine_->steps() - first_step_) % backup_interval == 0) backup_ = engine_->checkpoint();
+  if (const int signal = StopSignals::received(); signal != 0)
+    throw Interrupted(fmt::format("stopped by signal {} at step {}, t = {:g} s; go on with --resume", signal,
+                                  engine_->steps(), engine_->time()));
+  if (checkpoint_timer_->due(engine_->time()))
+    write_checkpoint(checkpoint_path(options_.directory), engine_->checkpoint());
+}
+
+void Run::observe() {
+  const Stopwatch watch(wall_.output);
+  if (!first_momentum_known_) first_momentum_ = engine_->momentum();
+  first_momentum_known_ = true;
+  if (engine_->steps() % energy_interval == 0 || engine_->finished()) {
+    engine_->verify_energy();
+    progress_->update(engine_->time(), engine_->steps(), engine_->energies().relative_error());
+  }
+  recorder_->write_if_due(*engine_);
+}
+
+void Run::leave_last_good_state() {
+  engine_->restore(backup_);
+  write_checkpoint(checkpoint_path(options_.directory), backup_);
+  engine_->prepare();
+}
+
+void Run::summarise(const std::string& status, const std::string& message) {
+  Summary s;
+  s.version = version();
+  s.case_file = case_.file;
+  s.status = status;
+  s.message = message;
+  s.particles = model_->system.particles();
+  s.bonds = model_->system.d.bonds.size() / 2;
+  s.boundary_faces = model_->boundary_faces;
+  s.steps = engine_->steps();
+  s.dt = engine_->dt();
+  s.time = engine_->time();
+  s.wall_seconds = wall_;
+  if (wall_.steps > 0.0)
+    s.particle_steps_per_second =
+        static_cast<double>(s.particles) * static_cast<double>(s.steps - first_step_) / wall_.steps;
+  s.peak_memory_bytes = peak_memory_bytes();
+  s.energy = engine_->energies();
+  s.momentum = engine_->momentum();
+  s.momentum_change = {s.momentum.linear - first_momentum_.linear, s.momentum.angular - first_momentum_.angular};
+  if (!case_.references.empty()) {
+    const Snapshot snapshot = engine_->snapshot();
+    for (const ReferenceSpec& r : case_.references) s.errors[r.name] = displacement_error(snapshot, r);
+  }
+  s.identities = model_->identities;
+  s.max_force_residual = engine_->largest_force();
+  write_summary(summary_path(options_.directory), s);
+}
+
+}  // namespace
+
+void run_case(const Case& c, const RunOptions& options) { Run(c, options).execute(); }
+
+}  // namespace tessera
