@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/version.hpp"
 #include "tessera/tessellation/tetrahedra.hpp"
 
 namespace tessera {
@@ -19,7 +20,7 @@ std::string version_text() {
       "doi:10.1007/s40571-021-00452-8\n"
       "  voronoi:  G. Frenning, A Voronoi strain-based method for granular materials and continua,\n"
       "            Comput. Part. Mech. 10, 427-443 (2023), doi:10.1007/s40571-022-00508-3\n",
-      TESSERA_VERSION, TESSERA_COMPILER, TESSERA_BUILD_TYPE, has_delaunay() ? "on" : "off");
+      version(), TESSERA_COMPILER, TESSERA_BUILD_TYPE, has_delaunay() ? "on" : "off");
 }
 
 }  // namespace tessera

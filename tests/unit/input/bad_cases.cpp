@@ -255,12 +255,5 @@ TEST(CaseFile, MayBeEmptyOrRubbishWithoutHarm) {
     EXPECT_FALSE(sample::error_of(text).empty()) << text;
 }
 
-TEST(CaseFile, TruncatedAnywhereIsNeverACrash) {
-  for (std::size_t n = 0; n < sample::text.size(); ++n) {
-    const std::string what = sample::error_of(sample::text.substr(0, n));
-    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-  }
-}
-
 }  // namespace
 }  // namespace tessera
