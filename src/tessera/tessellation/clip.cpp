@@ -1,6 +1,9 @@
 #include "tessera/tessellation/clip.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "tessera/tessellation/plane_order.hpp"
 
 namespace tessera {
 
@@ -17,7 +20,31 @@ void ConvexPolyhedron::close_face(Index tag) {
 }
 
 Clipper::Outcome Clipper::clip(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag) {
-  locate(polyhedron, plane);
+  remains_ = Remains::joined;
+  heights_.clear();
+  places_.clear();
+  for (const Vec3& X : polyhedron.vertices) {
+    const double height = plane.height(X);
+    heights_.push_back(height);
+    places_.push_back(height > tolerance_ ? Place::above : (height < -tolerance_ ? Place::below : Place::on));
+  }
+  return cut(polyhedron, tag);
+}
+
+Clipper::Outcome Clipper::split(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag) {
+  heights_.clear();
+  places_.clear();
+  const bool is_forward = faces_forward(plane);
+  remains_ = is_forward ? Remains::joined : Remains::apart;
+  for (const Vec3& X : polyhedron.vertices) {
+    const double height = plane.height(X);
+    heights_.push_back(height);
+    places_.push_back(height < 0.0 || (height == 0.0 && is_forward) ? Place::below : Place::above);
+  }
+  return cut(polyhedron, tag);
+}
+
+Clipper::Outcome Clipper::cut(ConvexPolyhedron& polyhedron, Index tag) {
   const auto has = [&](Place place) { return std::find(places_.begin(), places_.end(), place) != places_.end(); };
   if (!has(Place::below)) {
     polyhedron.clear();
@@ -28,29 +55,23 @@ Clipper::Outcome Clipper::clip(ConvexPolyhedron& polyhedron, const Plane& plane,
   result_.vertices = polyhedron.vertices;
   cut_edges_.clear();
   rim_.clear();
-  for (Index f = 0; f < polyhedron.faces(); ++f) cut_face(polyhedron, f);
+  for (Index f = 0; f < polyhedron.faces(); ++f) {
+    if (remains_ == Remains::joined)
+      cut_face(polyhedron, f);
+    else
+      cut_face_apart(polyhedron, f);
+  }
   add_cap(tag);
   keep_used_vertices();
   std::swap(polyhedron, result_);
   return Outcome::cut;
 }
 
-void Clipper::locate(const ConvexPolyhedron& polyhedron, const Plane& plane) {
-  heights_.clear();
-  places_.clear();
-  for (const Vec3& X : polyhedron.vertices) {
-    const double height = plane.height(X);
-    heights_.push_back(height);
-    places_.push_back(height > tolerance_ ? Place::above : (height < -tolerance_ ? Place::below : Place::on));
-  }
-}
-
-Index Clipper::touched_face(const ConvexPolyhedron& polyhedron) const {
-  for (Index f = 0; f < polyhedron.faces(); ++f) {
-    const std::span<const Index> face = polyhedron.face(f);
-    if (std::all_of(face.begin(), face.end(), [&](Index v) { return place(v) == Place::on; })) return f;
-  }
-  return -1;
+bool Clipper::lies_in(const ConvexPolyhedron& polyhedron, Index f, const Plane& plane) const {
+  const std::span<const Index> face = polyhedron.face(f);
+  return std::all_of(face.begin(), face.end(), [&](Index v) {
+    return std::abs(plane.height(polyhedron.vertices[static_cast<std::size_t>(v)])) <= tolerance_;
+  });
 }
 
 Index Clipper::vertex_on_edge(const ConvexPolyhedron& polyhedron, Index u, Index v) {
@@ -85,6 +106,34 @@ void Clipper::cut_face(const ConvexPolyhedron& polyhedron, Index f) {
     if (place(p) == Place::on && place(q) == Place::on) rim_.emplace_back(q, p);
   }
   result_.close_face(polyhedron.tags[static_cast<std::size_t>(f)]);
+}
+
+/// The same for split() by a plane that faces backward. A face so close to the plane that round-off makes it cross more
+/// than twice leaves several remains: joined on one side of the plane, they must be apart on the other.
+/// With crossings c1 .. c4 around the face, one side has the polygon c1 c2 .. c3 c4 .., so the other must have the two
+/// polygons c1 .. c2 and c3 .. c4: the chords c1 c2 and c3 c4 are then common to both.
+void Clipper::cut_face_apart(const ConvexPolyhedron& polyhedron, Index f) {
+  const std::span<const Index> face = polyhedron.face(f);
+  const std::size_t n = face.size();
+  const auto at = [&](std::size_t i) { return place(face[i % n]); };
+  std::size_t enter = 0;
+  while (enter < n && !(at(enter) == Place::above && at(enter + 1) == Place::below)) ++enter;
+  if (enter == n) return cut_face(polyhedron, f);  // wholly on one side
+  const Index tag = polyhedron.tags[static_cast<std::size_t>(f)];
+  Index first = -1;
+  for (std::size_t i = enter; i < enter + n; ++i) {
+    const Index u = face[i % n], v = face[(i + 1) % n];
+    if (place(u) == Place::below) result_.corners.push_back(u);
+    if (place(u) == place(v)) continue;
+    const Index crossing = vertex_on_edge(polyhedron, u, v);
+    result_.corners.push_back(crossing);
+    if (place(u) == Place::above) {
+      first = crossing;
+    } else {
+      rim_.emplace_back(first, crossing);
+      result_.close_face(tag);
+    }
+  }
 }
 
 /// Closes the hole. Its rim is one loop, but round-off may pinch it into several.

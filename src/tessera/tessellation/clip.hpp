@@ -29,26 +29,31 @@ struct ConvexPolyhedron {
 };
 
 /// Cuts polyhedra by planes, again and again, without allocating each time.
-///
-/// A vertex within `tolerance` of the plane lies on it: it is neither cut off nor moved. So a face that coincides with
-/// the plane is not split into slivers.
 class Clipper {
  public:
   explicit Clipper(double tolerance) : tolerance_(tolerance) {}
 
   enum class Outcome { untouched, cut, emptied };
 
-  /// Keeps what is below `plane`; the new face gets `tag`.
+  /// Keeps what is below `plane`; the new face gets `tag`. A vertex within the tolerance of the plane lies on it: it is
+  /// neither cut off nor moved, so a face that coincides with the plane is not split into slivers.
   Outcome clip(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag);
 
-  /// The face that the plane of the last clip(), which left the polyhedron untouched, lies on; -1 if there is none.
-  Index touched_face(const ConvexPolyhedron& polyhedron) const;
+  /// The same without tolerance, for a plane that both sides are cut by: what this keeps of a polyhedron and what it
+  /// keeps when the plane faces the other way are exactly the whole, though a plane close to a face may split that face
+  /// anyhow.
+  Outcome split(ConvexPolyhedron& polyhedron, const Plane& plane, Index tag);
+
+  /// Lies face f in `plane`, to within the tolerance?
+  bool lies_in(const ConvexPolyhedron& polyhedron, Index f, const Plane& plane) const;
 
  private:
   enum class Place : signed char { below, on, above };
+  enum class Remains { joined, apart };  // of a face that the plane crosses more than twice
 
-  void locate(const ConvexPolyhedron& polyhedron, const Plane& plane);
+  Outcome cut(ConvexPolyhedron& polyhedron, Index tag);
   void cut_face(const ConvexPolyhedron& polyhedron, Index f);
+  void cut_face_apart(const ConvexPolyhedron& polyhedron, Index f);
   void add_cap(Index tag);
   void keep_used_vertices();
   Index vertex_on_edge(const ConvexPolyhedron& polyhedron, Index u, Index v);
@@ -59,6 +64,7 @@ class Clipper {
   };
 
   double tolerance_;
+  Remains remains_ = Remains::joined;
   std::vector<double> heights_;
   std::vector<Place> places_;  // of the old vertices, then of the new ones
   std::vector<CutEdge> cut_edges_;

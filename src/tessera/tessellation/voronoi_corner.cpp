@@ -2,25 +2,14 @@
 
 #include <cmath>
 #include <functional>
-#include <tuple>
+
+#include "tessera/tessellation/plane_order.hpp"
 
 namespace tessera {
 namespace {
 
 /// Planes whose unit normals span less volume than this do not fix a point.
 constexpr double kParallel = 1e-9;
-
-/// The plane with the orientation that both pieces at a wall agree on: first component of the normal positive.
-Plane oriented(const Plane& plane) {
-  const Vec3& n = plane.normal;
-  const double sign = n.x != 0.0 ? n.x : (n.y != 0.0 ? n.y : n.z);
-  return sign < 0.0 ? Plane{-n, -plane.offset} : plane;
-}
-
-bool comes_before(const Plane& a, const Plane& b) {
-  return std::tie(a.normal.x, a.normal.y, a.normal.z, a.offset) <
-         std::tie(b.normal.x, b.normal.y, b.normal.z, b.offset);
-}
 
 /// Three equations normal . x = value.
 struct System {
@@ -47,7 +36,7 @@ void insert_sorted(std::array<T, N>& items, int& count, const T& item, Before be
 
 void Corner::add(Index generator) { insert_sorted(generators_, generator_count_, generator, std::less<>()); }
 
-void Corner::add(const Plane& wall) { insert_sorted(walls_, wall_count_, oriented(wall), comes_before); }
+void Corner::add(const Plane& wall) { insert_sorted(walls_, wall_count_, forward(wall), comes_before); }
 
 Vec3 corner_position(std::span<const Vec3> points, const Corner& corner, const Vec3& estimate) {
   const Vec3& base = points[static_cast<std::size_t>(corner.generators()[0])];

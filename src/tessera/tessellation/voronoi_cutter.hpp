@@ -10,8 +10,12 @@
 
 namespace tessera {
 
-/// Makes one Voronoi cell after the other, in the convex pieces of a solid: a piece is cut by the bisectors to ever
-/// farther particles, until none can reach what is left. Not thread-safe: one cutter belongs to one thread.
+/// Makes one Voronoi cell after the other. Not thread-safe: one cutter belongs to one thread.
+///
+/// First every convex piece of the solid that the cell can reach is cut by the bisectors to ever farther particles,
+/// until none can reach what is left. That is all for cells within one piece. Where a wall between two pieces goes
+/// through a cell, the same bisectors then make the whole cell, and the pieces' walls cut that: so what the wall adds
+/// to one part it takes from the other, digit by digit, even if the wall nearly coincides with a face of the cell.
 class VoronoiCutter {
  public:
   /// Face tags of the parts of a cell: the particle behind the face; a wall between two pieces of the solid, which
@@ -29,12 +33,19 @@ class VoronoiCutter {
   std::span<const ConvexPolyhedron> cut(Index particle);
 
  private:
+  using Polyhedra = std::vector<ConvexPolyhedron>;
+
   std::size_t piece_around(Index particle) const;
-  void cut_piece(Index particle, const ConvexPiece& piece, ConvexPolyhedron& part);
-  bool can_reach(const ConvexPolyhedron& part, const ConvexPiece& from, const ConvexPolyhedron& other) const;
-  void place_corners(Index particle, const ConvexPiece& piece, ConvexPolyhedron& part);
-  static void place_on_walls(const ConvexPiece& piece, ConvexPolyhedron& part);
-  static void tag_sides(const ConvexPiece& piece, ConvexPolyhedron& part);
+  void find_parts(Index particle, double margin);
+  void cut_by_neighbours(Index particle, std::size_t piece, double margin, ConvexPolyhedron& part);
+  Plane bisector(Index particle, Index neighbour) const;
+  bool can_reach(const ConvexPolyhedron& part, std::size_t from, std::size_t other) const;
+  bool is_inner_wall(std::size_t piece, Index tag) const;
+  bool has_inner_wall() const;
+  void make_whole(Index particle);
+  void cut_whole_by_pieces();
+  void hand_faces_to_sides(std::size_t piece, ConvexPolyhedron& part) const;
+  void place_corners(Index particle, const ConvexPiece* piece, ConvexPolyhedron& part);
 
   struct Incidence {
     std::array<Index, 3> tags{};
@@ -46,8 +57,14 @@ class VoronoiCutter {
   double tolerance_;
   Clipper clipper_;
   NearestPoints nearest_;
-  std::vector<ConvexPolyhedron> pieces_;  // of the solid, faces tagged by wall
-  std::vector<ConvexPolyhedron> parts_;   // only the first of them are in use
+  Polyhedra pieces_;                                 // of the solid, faces tagged by wall
+  std::vector<std::vector<std::size_t>> cut_order_;  // of the walls of every piece
+
+  Polyhedra parts_;                      // of the cell; the first `count_` are in use
+  std::vector<std::size_t> part_piece_;  // the piece that each is in
+  std::size_t count_ = 0;
+  ConvexPolyhedron whole_;
+  std::vector<Index> neighbours_;
   std::vector<Incidence> incidence_;
 };
 
