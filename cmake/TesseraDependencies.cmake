@@ -1,5 +1,5 @@
 # Libraries from the system. CGAL is optional because its triangulations are GPL.
-find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(Threads REQUIRED)
 find_package(muparser REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(tomlplusplus REQUIRED)

@@ -1,25 +1,80 @@
 #include "tessera/parallel/parallel.hpp"
 
-#include <omp.h>
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "tessera/parallel/pool.hpp"
 
 namespace tessera::parallel {
 
-int threads() { return omp_get_max_threads(); }
+namespace {
+
+// Fewer blocks than this cost less than waking other threads.
+constexpr std::int64_t fewest_blocks = 8;
+
+/// OMP_NUM_THREADS, which batch systems set, or all processors.
+int default_threads() {
+  if (const char* text = std::getenv("OMP_NUM_THREADS")) {
+    const int n = std::atoi(text);
+    if (n > 0) return n;
+  }
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+struct Setting {
+  int threads = default_threads();
+  std::unique_ptr<Pool> pool;
+};
+
+Setting& setting() {
+  static Setting s;
+  return s;
+}
+
+// Set while blocks are being worked on: a nested call runs where it is.
+thread_local bool inside = false;
+
+struct Nested {
+  Nested() { inside = true; }
+  Nested(const Nested&) = delete;
+  Nested& operator=(const Nested&) = delete;
+  ~Nested() { inside = false; }
+};
+
+}  // namespace
+
+int threads() { return setting().threads; }
 
 void set_threads(int n) {
-  if (n > 0) omp_set_num_threads(n);
+  if (n <= 0 || n == setting().threads) return;
+  setting().pool.reset();
+  setting().threads = n;
 }
 
 namespace detail {
 
 void run_blocks(std::int64_t blocks, void (*body)(void*, std::int64_t), void* context) {
-  // Fewer than eight blocks cost less than waking the other threads.
-  if (blocks < 8 || threads() == 1 || omp_in_parallel()) {
+  if (blocks < fewest_blocks || threads() == 1 || inside) {
     for (std::int64_t b = 0; b < blocks; ++b) body(context, b);
     return;
   }
-#pragma omp parallel for schedule(static)
-  for (std::int64_t b = 0; b < blocks; ++b) body(context, b);
+  Setting& s = setting();
+  if (!s.pool) s.pool = std::make_unique<Pool>(s.threads);
+  struct Call {
+    void (*body)(void*, std::int64_t);
+    void* context;
+  } call{body, context};
+  s.pool->run(
+      blocks,
+      [](void* p, std::int64_t block) {
+        const Nested nested;
+        const Call& c = *static_cast<Call*>(p);
+        c.body(c.context, block);
+      },
+      &call);
 }
 
 }  // namespace detail
