@@ -77,6 +77,12 @@ std::string quoted(std::string_view text) {
   return result + "\"";
 }
 
+std::string quoted_list(std::span<const std::string> words, std::string_view conjunction) {
+  std::vector<std::string> all(words.size());
+  std::transform(words.begin(), words.end(), all.begin(), [](const std::string& w) { return quoted(w); });
+  return list_of(all, conjunction);
+}
+
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};

@@ -26,6 +26,9 @@ inline std::string quoted(const std::string& text) { return quoted(std::string_v
 inline std::string quoted(std::string& text) { return quoted(std::string_view(text)); }
 inline std::string quoted(const char* text) { return quoted(std::string_view(text)); }
 
+/// list_of() with every word in quotes.
+std::string quoted_list(std::span<const std::string> words, std::string_view conjunction = "or");
+
 /// `text` without the blanks at its ends.
 std::string_view trimmed(std::string_view text);
 

@@ -8,16 +8,6 @@
 
 namespace tessera::input {
 
-namespace {
-
-std::vector<std::string> quoted_all(const std::vector<std::string>& names) {
-  std::vector<std::string> result;
-  for (const std::string& n : names) result.push_back(quoted(n));
-  return result;
-}
-
-}  // namespace
-
 std::vector<std::string> unique_names(const std::vector<Reader>& tables, const std::string& noun) {
   std::vector<std::string> names;
   for (const Reader& table : tables) {
@@ -39,7 +29,7 @@ std::size_t position_of(const Reader& table, const std::string& key, const std::
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   throw InputError(table.origin_of(key), fmt::format("found {}, no {} of this case{}; known: {}", quoted(name), noun,
-                                                     did_you_mean(name, names), list_of(quoted_all(names), "and")));
+                                                     did_you_mean(name, names), quoted_list(names, "and")));
 }
 
 std::string body_of(const Reader& table, const std::vector<std::string>& bodies) {
@@ -47,8 +37,7 @@ std::string body_of(const Reader& table, const std::vector<std::string>& bodies)
   if (bodies.size() <= 1) return {};
   Origin origin = table.origin();
   origin.key += ".body";
-  throw InputError(origin,
-                   fmt::format("missing; with several bodies say which one is meant: {}", list_of(quoted_all(bodies))));
+  throw InputError(origin, fmt::format("missing; with several bodies say which one is meant: {}", quoted_list(bodies)));
 }
 
 }  // namespace tessera::input

@@ -40,6 +40,7 @@ class Normalizer {
   void check_keys(const Table& entries, const std::string& row) const {
     const auto known = parameters_in(row);
     std::vector<std::string> names;
+    names.reserve(known.size());
     for (const Parameter* p : known) names.push_back(last_part(p->key));
     for (const Entry& e : entries) {
       if (std::find(names.begin(), names.end(), e.key) != names.end()) continue;

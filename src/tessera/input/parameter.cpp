@@ -11,12 +11,6 @@ namespace tessera::input {
 
 namespace {
 
-std::string quoted_list(const std::vector<std::string>& words) {
-  std::vector<std::string> all;
-  for (const std::string& w : words) all.push_back(quoted(w));
-  return list_of(all);
-}
-
 /// "a length in m" or "a number".
 std::string noun(const Dimension& d) {
   const std::string unit = si_unit(d);

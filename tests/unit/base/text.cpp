@@ -49,6 +49,11 @@ TEST(Quoted, StaysOnOneLine) {
   EXPECT_EQ(quoted("\xc2\xb5m"), "\"\xc2\xb5m\"");
 }
 
+TEST(QuotedList, QuotesEveryWord) {
+  EXPECT_EQ(quoted_list(std::vector<std::string>{"a", "b"}), "\"a\" or \"b\"");
+  EXPECT_EQ(quoted_list(std::vector<std::string>{"a", "b"}, "and"), "\"a\" and \"b\"");
+}
+
 TEST(Trimmed, RemovesBlanksAtTheEnds) {
   EXPECT_EQ(trimmed(" \t a b  "), "a b");
   EXPECT_EQ(trimmed("  "), "");
