@@ -14,6 +14,9 @@ namespace {
 constexpr std::int64_t first_interval = 500, shortest_interval = 50, longest_interval = 4000;
 // Change of the limit between two estimates that calls for closer watch.
 constexpr double watchful_change = 0.02;
+// How much the last step may be longer than the others. The time of many steps adds up with round-off, and what that
+// leaves of the run must not become a step of its own: accelerations of walls over such a step are noise.
+constexpr double last_step_stretch = 1e-3;
 
 const Material& material(const System& s, const MaterialRange& r) {
   return s.materials[static_cast<std::size_t>(r.material)];
@@ -84,7 +87,7 @@ double StepControl::next(std::int64_t step, double time, const State& state, std
     memory_.dt = divide_evenly(spec_.end - time, memory_.dt);
   }
   const double rest = spec_.end - time;
-  return memory_.dt > rest * (1.0 - 1e-9) ? rest : memory_.dt;
+  return rest < memory_.dt * (1.0 + last_step_stretch) ? rest : memory_.dt;
 }
 
 void StepControl::restore(const Memory& memory, Field<Double4> start_vector) {
