@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tessera/parallel/parallel.hpp"
+
 namespace tessera {
 
 Offset Bonds::find(Index a, Index b) const {
@@ -16,14 +18,15 @@ void complete_bonds(Bonds& bonds, const std::vector<Vec3>& X) {
   const auto n = static_cast<std::size_t>(bonds.size());
   bonds.X_ab.resize(n);
   bonds.B_ba.resize(n);
-  for (Index a = 0; a < bonds.rows(); ++a) {
+  parallel::for_each(bonds.rows(), [&](std::int64_t row) {
+    const auto a = static_cast<Index>(row);
     for (Offset i = bonds.begin(a); i < bonds.end(a); ++i) {
       const auto k = static_cast<std::size_t>(i);
       const Index b = bonds.neighbour[k];
       bonds.X_ab[k] = X[static_cast<std::size_t>(b)] - X[static_cast<std::size_t>(a)];
       bonds.B_ba[k] = bonds.B_ab[static_cast<std::size_t>(bonds.find(b, a))];
     }
-  }
+  });
 }
 
 std::vector<Vec3> diagonal_vectors(const Discretization& d) {

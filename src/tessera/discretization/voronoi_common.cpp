@@ -1,41 +1,26 @@
 #include "tessera/discretization/voronoi_common.hpp"
 
-#include <algorithm>
-
 namespace tessera {
 
-namespace {
-
-struct OwnedFace {
-  Index owner;
-  FaceOfCell face;
-};
-
-}  // namespace
-
 Csr<FaceOfCell> faces_of_cells(const Cells& cells) {
-  std::vector<OwnedFace> owned;
-  owned.reserve(2 * cells.interior.size() + cells.boundary.size());
-  for (std::size_t i = 0; i < cells.interior.size(); ++i) {
-    const InteriorFace& f = cells.interior[i];
-    owned.push_back({f.a, {f.b, static_cast<Index>(i)}});
-    owned.push_back({f.b, {f.a, static_cast<Index>(i)}});
-  }
-  const auto first_boundary = owned.size();
-  std::sort(owned.begin(), owned.end(), [](const OwnedFace& l, const OwnedFace& r) {
-    return l.owner != r.owner ? l.owner < r.owner : l.face.neighbour < r.face.neighbour;
-  });
-  for (std::size_t i = 0; i < cells.boundary.size(); ++i)
-    owned.push_back({cells.boundary[i].owner, {-1, static_cast<Index>(i)}});
-  std::inplace_merge(owned.begin(), owned.begin() + static_cast<std::ptrdiff_t>(first_boundary), owned.end(),
-                     [](const OwnedFace& l, const OwnedFace& r) { return l.owner < r.owner; });
-
-  const Csr<OwnedFace> rows = group_by_row<OwnedFace>(static_cast<Index>(cells.volume.size()), owned,
-                                                      [](const OwnedFace& f) { return f.owner; });
+  // Interior faces are sorted by (a, b): visiting them in order fills every row by ascending neighbour.
   Csr<FaceOfCell> faces;
-  faces.offset = rows.offset;
-  faces.value.reserve(rows.value.size());
-  for (const OwnedFace& f : rows.value) faces.value.push_back(f.face);
+  faces.offset.assign(cells.volume.size() + 1, 0);
+  const auto count = [&](Index a) { ++faces.offset[static_cast<std::size_t>(a) + 1]; };
+  for (const InteriorFace& f : cells.interior) count(f.a), count(f.b);
+  for (const BoundaryFace& f : cells.boundary) count(f.owner);
+  for (std::size_t a = 0; a < cells.volume.size(); ++a) faces.offset[a + 1] += faces.offset[a];
+  faces.value.resize(static_cast<std::size_t>(faces.offset.back()));
+
+  std::vector<Offset> next(faces.offset.begin(), faces.offset.end() - 1);
+  const auto put = [&](Index a, Index neighbour, std::size_t face) {
+    faces.value[static_cast<std::size_t>(next[static_cast<std::size_t>(a)]++)] = {neighbour, static_cast<Index>(face)};
+  };
+  for (std::size_t i = 0; i < cells.interior.size(); ++i) {
+    put(cells.interior[i].a, cells.interior[i].b, i);
+    put(cells.interior[i].b, cells.interior[i].a, i);
+  }
+  for (std::size_t i = 0; i < cells.boundary.size(); ++i) put(cells.boundary[i].owner, -1, i);
   return faces;
 }
 

@@ -1,0 +1,173 @@
+#include "tessera/discretization/face_positions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tessera/base/error.hpp"
+#include "tessera/discretization/rows.hpp"
+#include "tessera/discretization/stencil.hpp"
+#include "tessera/parallel/collect.hpp"
+
+namespace tessera {
+
+namespace {
+
+// A stencil that needs weights this many times larger than the face's offset is as good as degenerate.
+constexpr double largest_amplification = 10.0;
+// What a face position may miss, relative to the distance of the particles.
+constexpr double position_tolerance = 1e-12;
+// Faces whose centroid is this close to the middle of the branch, relative to its length, need no stencil.
+constexpr double centred = 1e-15;
+
+using Collector = parallel::RowCollector<FaceTerm>;
+
+/// Memory of one stencil, kept from face to face.
+struct Scratch {
+  std::vector<Index> of_a, of_b, stencil;
+  std::vector<Vec3> y;
+  std::vector<double> w;
+};
+
+class FaceFitter {
+ public:
+  FaceFitter(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces)
+      : X_(X), cells_(cells), faces_(faces) {}
+
+  /// Return whether the stencil had to be widened.
+  bool interior(const InteriorFace& f, Scratch& s, Collector& out) const;
+  bool boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Collector& out) const;
+
+ private:
+  void neighbours(Index a, std::vector<Index>& list) const {
+    list.clear();
+    for (const FaceOfCell& f : faces_.row(a))
+      if (f.neighbour >= 0) list.push_back(f.neighbour);
+  }
+  void place(Scratch& s, const Vec3& origin) const {
+    s.y.clear();
+    for (Index c : s.stencil) s.y.push_back(X_[static_cast<std::size_t>(c)] - origin);
+    s.w.resize(s.y.size());
+  }
+  void second_ring(Index a, Scratch& s) const;
+  const Vec3& at(Index a) const { return X_[static_cast<std::size_t>(a)]; }
+  std::string name(Index a) const { return fmt::format("{} at ({:g}, {:g}, {:g})", a, at(a).x, at(a).y, at(a).z); }
+
+  std::span<const Vec3> X_;
+  const Cells& cells_;
+  const Csr<FaceOfCell>& faces_;
+};
+
+void insert(std::vector<Index>& sorted, Index a) {
+  const auto it = std::lower_bound(sorted.begin(), sorted.end(), a);
+  if (it == sorted.end() || *it != a) sorted.insert(it, a);
+}
+
+/// c_f = (x_a + x_b)/2 + sum_c w_c x_c: over a, b and their common neighbours; over all neighbours of both where
+/// those do not span the face's offset.
+bool FaceFitter::interior(const InteriorFace& f, Scratch& s, Collector& out) const {
+  const Vec3 middle = 0.5 * (at(f.a) + at(f.b));
+  const Vec3 offset = f.centroid - middle;
+  const double L = norm(at(f.b) - at(f.a));
+  out.add({f.a, 0.5});
+  out.add({f.b, 0.5});
+  if (norm(offset) <= centred * L) return false;
+
+  neighbours(f.a, s.of_a);
+  neighbours(f.b, s.of_b);
+  for (const bool widened : {false, true}) {
+    s.stencil.clear();
+    if (widened)
+      std::set_union(s.of_a.begin(), s.of_a.end(), s.of_b.begin(), s.of_b.end(), std::back_inserter(s.stencil));
+    else
+      std::set_intersection(s.of_a.begin(), s.of_a.end(), s.of_b.begin(), s.of_b.end(), std::back_inserter(s.stencil));
+    insert(s.stencil, f.a);
+    insert(s.stencil, f.b);
+    place(s, middle);
+    const StencilFit fit = balanced_weights(s.y, offset, s.w);
+    if (norm(fit.residual) > position_tolerance * L || fit.amplification > largest_amplification) continue;
+    for (std::size_t c = 0; c < s.stencil.size(); ++c) out.add({s.stencil[c], s.w[c]});
+    return widened;
+  }
+  throw GeometryError(
+      fmt::format("the face between particles {} and {} cannot follow a linear motion: their neighbours lie in one "
+                  "plane or line; use at least two layers of particles in every direction",
+                  name(f.a), name(f.b)));
+}
+
+void FaceFitter::second_ring(Index a, Scratch& s) const {
+  neighbours(a, s.stencil);
+  const std::vector<Index> first = s.stencil;
+  for (Index c : first) {
+    neighbours(c, s.of_b);
+    s.stencil.insert(s.stencil.end(), s.of_b.begin(), s.of_b.end());
+  }
+  std::sort(s.stencil.begin(), s.stencil.end());
+  s.stencil.erase(std::unique(s.stencil.begin(), s.stencil.end()), s.stencil.end());
+  std::erase(s.stencil, a);
+}
+
+/// The free components of c_f = x_a + sum_c w_c (x_c - x_a): over the neighbours, over theirs too where those do not
+/// span the way from the particle to the face. What a symmetric face moves along its normal is prescribed, so
+/// its residual may point there (a slab one cell thick).
+bool FaceFitter::boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Collector& out) const {
+  const Vec3 offset = f.centroid - at(f.owner), N = normalized(f.area);
+  const double size = std::cbrt(cells_.volume[static_cast<std::size_t>(f.owner)]);
+  const Mat3 beyond_normal = D - outer(N, N);
+  const bool symmetric = contract(beyond_normal, beyond_normal) < 1e-20;
+  for (const bool widened : {false, true}) {
+    if (widened)
+      second_ring(f.owner, s);
+    else
+      neighbours(f.owner, s.stencil);
+    if (s.stencil.empty()) continue;
+    place(s, at(f.owner));
+    const StencilFit fit = spanning_weights(s.y, offset, s.w);
+    const Vec3 missed = symmetric ? fit.residual - dot(fit.residual, N) * N : fit.residual;
+    if (norm(missed) > position_tolerance * size || fit.amplification > largest_amplification) continue;
+    double sum = 0.0;
+    for (std::size_t c = 0; c < s.stencil.size(); ++c) {
+      out.add({s.stencil[c], s.w[c]});
+      sum += s.w[c];
+    }
+    out.add({f.owner, 1.0 - sum});
+    return widened;
+  }
+  throw GeometryError(
+      fmt::format("the boundary face of particle {} cannot follow a linear motion: the particle's neighbours lie in "
+                  "one plane or line; use at least two layers of particles in every direction",
+                  name(f.owner)));
+}
+
+std::vector<Index> marked(const std::vector<char>& marks) {
+  std::vector<Index> list;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i]) list.push_back(static_cast<Index>(i));
+  return list;
+}
+
+}  // namespace
+
+FacePositions face_positions(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
+                             std::span<const Mat3> D) {
+  const FaceFitter fitter(X, cells, faces);
+  FacePositions p;
+  std::vector<char> wide(cells.interior.size(), 0);
+  p.interior = parallel::collect_rows<FaceTerm>(static_cast<Index>(wide.size()), [&](Index i, Collector& out) {
+    thread_local Scratch scratch;
+    const auto k = static_cast<std::size_t>(i);
+    wide[k] = fitter.interior(cells.interior[k], scratch, out);
+  });
+  p.widened_interior = marked(wide);
+  wide.assign(cells.boundary.size(), 0);
+  p.boundary = parallel::collect_rows<FaceTerm>(static_cast<Index>(wide.size()), [&](Index i, Collector& out) {
+    thread_local Scratch scratch;
+    const auto k = static_cast<std::size_t>(i);
+    if (!is_identity(D[k])) wide[k] = fitter.boundary(cells.boundary[k], D[k], scratch, out);
+  });
+  p.widened_boundary = marked(wide);
+  return p;
+}
+
+}  // namespace tessera
