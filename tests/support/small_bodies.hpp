@@ -57,32 +57,46 @@ inline PointSet lattice(const Solid& solid, std::array<int, 3> counts, double ji
 /// The projection of each boundary face as a function of its centroid and normal.
 using Constrain = std::function<Mat3(const Vec3& centroid, const Vec3& normal)>;
 
+/// Tetrahedra on a lattice with `counts` cells, jittered.
+inline TetrahedralMesh tetrahedra(const Solid& solid, std::array<int, 3> counts, double jitter, std::uint64_t seed) {
+  for (int& n : counts) ++n;
+  return tetrahedralize(lattice(solid, counts, jitter, seed, Placement::vertices), solid,
+                        Tetrahedralization::automatic);
+}
+
+/// Points, their cells and the projection of each boundary face.
+struct VoronoiBody {
+  std::vector<Vec3> X;
+  Cells cells;
+  std::vector<Mat3> D;
+};
+
+inline VoronoiBody voronoi_body(const Solid& solid, std::array<int, 3> counts, double jitter, std::uint64_t seed,
+                                const Constrain& constrain) {
+  VoronoiBody body;
+  body.X = lattice(solid, counts, jitter, seed, Placement::cell_centres).points;
+  body.cells = voronoi_cells(body.X, solid);
+  for (const BoundaryFace& f : body.cells.boundary) body.D.push_back(constrain(f.centroid, normalized(f.area)));
+  return body;
+}
+
+inline Discretization discretize(Method method, const VoronoiBody& body) {
+  if (method == Method::consistent) return discretize_consistent(body.X, body.cells, body.D);
+  return discretize_ghosts(body.X, body.cells, body.D,
+                           method == Method::variational ? GhostForce::variational : GhostForce::quasi_static);
+}
+
 /// A box or L-block discretized; for delaunay `constrain` acts on particles, with the normal zero.
 inline Discretization discretize(Method method, const Solid& solid, std::array<int, 3> counts, double jitter,
                                  std::uint64_t seed, const Constrain& constrain) {
-  if (method == Method::delaunay) {
-    for (int& n : counts) ++n;
-    const PointSet points = lattice(solid, counts, jitter, seed, Placement::vertices);
-    const TetrahedralMesh mesh = tetrahedralize(points, solid, Tetrahedralization::automatic);
-    std::vector<ParticleConstraint> constraints;
-    for (Index a = 0; a < static_cast<Index>(mesh.points.size()); ++a) {
-      const Mat3 D = constrain(mesh.points[static_cast<std::size_t>(a)], Vec3{});
-      if (!is_zero(D)) constraints.push_back({a, D});
-    }
-    return discretize_delaunay(mesh, constraints);
+  if (method != Method::delaunay) return discretize(method, voronoi_body(solid, counts, jitter, seed, constrain));
+  const TetrahedralMesh mesh = tetrahedra(solid, counts, jitter, seed);
+  std::vector<ParticleConstraint> constraints;
+  for (Index a = 0; a < static_cast<Index>(mesh.points.size()); ++a) {
+    const Mat3 D = constrain(mesh.points[static_cast<std::size_t>(a)], Vec3{});
+    if (!is_zero(D)) constraints.push_back({a, D});
   }
-  const PointSet points = lattice(solid, counts, jitter, seed, Placement::cell_centres);
-  const Cells cells = voronoi_cells(points.points, solid);
-  std::vector<Mat3> D;
-  for (const BoundaryFace& f : cells.boundary) D.push_back(constrain(f.centroid, normalized(f.area)));
-  switch (method) {
-    case Method::consistent:
-      return discretize_consistent(points.points, cells, D);
-    case Method::variational:
-      return discretize_ghosts(points.points, cells, D, GhostForce::variational);
-    default:
-      return discretize_ghosts(points.points, cells, D, GhostForce::quasi_static);
-  }
+  return discretize_delaunay(mesh, constraints);
 }
 
 inline Mat3 nothing(const Vec3&, const Vec3&) { return {}; }
