@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """Pictures of bodies from the .vtu frames of a run (output.fields = { format = "vtu", cells = true }).
 
-    render.py OUT.png FRAME.vtu ... [--layout row|column|grid|scene] [--quantity von_mises --scale 1e-3 --title "..."]
-              [--range LO HI] [--labels "t = 0 s" ...] [--from X Y Z] [--up X Y Z] [--size W H] [--edges] [--radius R]
-              [--zoom Z]
+    render.py OUT.png FRAME.vtu ... [--layout row|column|grid|scene] [--columns N]
+              [--quantity von_mises --scale 1e-3 --title "..."] [--range LO HI] [--labels "t = 0 s" ...] [--from X Y Z]
+              [--up X Y Z] [--size W H] [--edges] [--radius R] [--zoom Z]
 
-cells_*.vtu show the outside of the body, fields_*.vtu a sphere of radius R for every particle. Each frame has its own panel, or
-with --layout scene all stand together where they are in space. Needs python3-vtk9 and a display; without one it starts itself again under xvfb-run (package xvfb).
+cells_*.vtu show the outside of the body, fields_*.vtu a sphere of radius R for every particle. Each frame has its own
+panel, or with --layout scene all stand together where they are in space. Needs python3-vtk9 and a display; without one it
+starts itself again under xvfb-run (package xvfb).
 """
 
 import argparse
@@ -197,9 +198,9 @@ def note(text, grid, bounds, direction, up):
     return actor
 
 
-def panels(count, layout, legend_share):
+def panels(count, layout, columns, legend_share):
     """Viewports (x0, y0, x1, y1) of the frames, above the strip of the legend."""
-    columns = {"row": count, "column": 1, "grid": math.ceil(math.sqrt(count)), "scene": 1}[layout]
+    columns = {"row": count, "column": 1, "grid": columns or math.ceil(math.sqrt(count)), "scene": 1}[layout]
     rows = math.ceil(count / columns)
     height = (1.0 - legend_share) / rows
     places = [divmod(i, columns) for i in range(count)]
@@ -214,8 +215,8 @@ def renderer_in(window, viewport):
     return renderer
 
 
-def render(output, grids, *, layout="row", quantity="von_mises", scale=1.0, title="", limits=None, labels=(),
-           direction=(0, -1, 0), up=(0, 0, 1), size=(1200, 500), edges=False, radius=None, zoom=1.0):
+def render(output, grids, *, layout="row", columns=None, quantity="von_mises", scale=1.0, title="", limits=None,
+           labels=(), direction=(0, -1, 0), up=(0, 0, 1), size=(1200, 500), edges=False, radius=None, zoom=1.0):
     """Draws frames (vtkUnstructuredGrid) into a PNG."""
     ranges = [scaled(grid, quantity, scale) for grid in grids]
     table = colour_map(limits or (min(r[0] for r in ranges), max(r[1] for r in ranges)))
@@ -227,7 +228,7 @@ def render(output, grids, *, layout="row", quantity="von_mises", scale=1.0, titl
     renderer_in(window, (0, 0, 1, 1))  # white behind panels that stay empty
     bounds = bounds_of(grids)
     groups = [grids] if layout == "scene" else [[grid] for grid in grids]
-    for i, (group, viewport) in enumerate(zip(groups, panels(len(groups), layout, strip))):
+    for i, (group, viewport) in enumerate(zip(groups, panels(len(groups), layout, columns, strip))):
         renderer = renderer_in(window, viewport)
         for grid in group:
             renderer.AddActor(body_actor(grid, table, radius, edges))
@@ -255,6 +256,7 @@ def arguments():
     parser.add_argument("output")
     parser.add_argument("frames", nargs="+")
     parser.add_argument("--layout", choices=("row", "column", "grid", "scene"), default="row")
+    parser.add_argument("--columns", type=int, help="of the grid")
     parser.add_argument("--quantity", default="von_mises")
     parser.add_argument("--scale", type=float, default=1.0, help="factor of the quantity, as in 1e-3 for kPa")
     parser.add_argument("--title", default="")
