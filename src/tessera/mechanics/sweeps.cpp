@@ -49,12 +49,20 @@ TESSERA_KERNEL void force_sweep(const Bonds& bonds, const Vec3* B_ba, const Vec3
 
 namespace {
 
-/// Energy, dU/dx and dU/dy of the bonds of one particle, in the layout of the sweeps; the same as bond_response().
+/// Sums over the bonds of one particle, in the layout of the sweeps; the same as bond_response().
 struct BondSums {
   double energy = 0.0;  // half of each bond's
   Double4 force{};      // sum dU/dx
-  Columns moment{};     // sum dU/dy (x) X
+  Columns moment{};     // - sum dU/dy (x) X
 };
+
+/// a . b / c . d of vectors with a zero in the fourth place.
+inline double ratio_of_products(const Double4& a, const Double4& b, const Double4& c, const Double4& d) {
+  using Mask = long long __attribute__((vector_size(32)));
+  const Double4 p = a * b, q = c * d;
+  const Double4 t = __builtin_shuffle(p, q, Mask{0, 4, 2, 6}) + __builtin_shuffle(p, q, Mask{1, 5, 3, 7});
+  return (t[0] + t[2]) / (t[1] + t[3]);
+}
 
 inline BondSums sum_bonds(const System& s, const Double4* x, const Columns* F, double stiffness_n, double stiffness_t,
                           Index a) {
@@ -62,22 +70,27 @@ inline BondSums sum_bonds(const System& s, const Double4* x, const Columns* F, d
   const Index* neighbour = bonds.neighbour.data();
   const Vec3* X_ab = bonds.X_ab.data();
   const double* area_over_length = bonds.area_over_length.data();
+  const double stiffness_difference = stiffness_n - stiffness_t;
   const Double4 x_a = x[a];
   const Columns F_a = F[a];
   BondSums sums;
-  for (Offset i = bonds.offset[static_cast<std::size_t>(a)]; i < bonds.offset[static_cast<std::size_t>(a) + 1]; ++i) {
+  Double4 energy{};
+  const Offset end = bonds.offset[static_cast<std::size_t>(a) + 1];
+  for (Offset i = bonds.offset[static_cast<std::size_t>(a)]; i < end; ++i) {
     const Index b = neighbour[i];
     const Vec3 X = X_ab[i];
     const Double4 x_ab = x[b] - x_a;
-    const Double4 u = x_ab - 0.5 * apply(F_a + F[b], X);  // [D 7]
-    const double Kn = stiffness_n * area_over_length[i], Kt = stiffness_t * area_over_length[i];
-    const double ux = dot3(u, x_ab), p = ux / dot3(x_ab, x_ab);
-    const Double4 u_n = p * x_ab, u_t = u - u_n;
-    const Double4 elastic = Kn * u_n + Kt * u_t;    // -dU/dy, [D 58]
-    sums.force += elastic + ((Kn - Kt) * p) * u_t;  // dU/dx, [D 57]
-    add_outer(sums.moment, -elastic, X);
-    sums.energy += 0.25 * (Kn * p * ux + Kt * dot3(u_t, u_t));
+    const Double4 u = x_ab - 0.5 * apply(F_a + F[b], X);      // [D 7]
+    const double p = ratio_of_products(u, x_ab, x_ab, x_ab);  // u^n = p x_ab, [D 10]
+    const double q = stiffness_difference * p;
+    const Double4 u_t = u - p * x_ab;
+    const Double4 elastic = stiffness_t * u + q * x_ab;       // -dU/dy per A/L, [D 58]
+    sums.force += area_over_length[i] * (elastic + q * u_t);  // dU/dx, [D 57]
+    const Double4 scaled = area_over_length[i] * elastic;
+    add_outer(sums.moment, scaled, X);
+    energy += scaled * u;
   }
+  sums.energy = 0.25 * (energy[0] + energy[1] + energy[2]);
   return sums;
 }
 
@@ -108,7 +121,7 @@ inline StressSums stress_range(const StressSweep& w, const Law& law, double stif
     const Mat3 F = to_mat3(w.F[a]);
     const Columns P = to_kernel(particle_stress(w, law, a, F, determinant(F), sums));
     const BondSums bonds = sum_bonds(w.s, w.x, w.F, stiffness_n, stiffness_t, a);
-    const Columns Q = (0.5 / w.s.d.volume[static_cast<std::size_t>(a)]) * bonds.moment;
+    const Columns Q = (-0.5 / w.s.d.volume[static_cast<std::size_t>(a)]) * bonds.moment;
     if (w.P != nullptr) {
       w.P[a] = P;
       w.T[a] = Q;
