@@ -33,7 +33,8 @@ struct Cells {
   std::vector<BoundaryFace> boundary;  // sorted by (owner, side); pieces on one side are merged
 };
 
-/// The Voronoi cells of `points` in `solid`. Throws GeometryError when a cell is empty or does not close.
+/// The Voronoi cells of `points` in `solid`; a cell has the index of its point. Throws GeometryError that names the
+/// particle when one is outside the solid, two coincide, or a cell is empty or does not close.
 Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid);
 
 /// One convex part of a cell, for pictures. Faces list vertices counter-clockwise seen from outside.
