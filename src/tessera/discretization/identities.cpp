@@ -14,6 +14,9 @@ namespace {
 
 constexpr double tolerance = 1e-10;
 
+/// The larger one; NaN stays.
+double larger(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
+
 double magnitude(const Mat3& m) { return std::sqrt(contract(m, m)); }
 
 /// A sum that should vanish, and the size of its terms.
@@ -25,12 +28,12 @@ struct Balance {
     sum += v;
     size += norm(v);
   }
-  double violation() const { return size > 0.0 ? norm(sum) / size : 0.0; }
+  double violation() const { return size == 0.0 ? 0.0 : norm(sum) / size; }
 };
 
 double worst(const std::vector<Balance>& balances) {
   double w = 0.0;
-  for (const Balance& b : balances) w = std::max(w, b.violation());
+  for (const Balance& b : balances) w = larger(w, b.violation());
   return w;
 }
 
@@ -46,7 +49,7 @@ double duality(const Discretization& d) {
     sum[a] += outer(f.X - d.X[a], f.B_af);
   }
   double w = 0.0;
-  for (std::size_t a = 0; a < sum.size(); ++a) w = std::max(w, magnitude((1.0 / d.volume[a]) * sum[a] - identity()));
+  for (std::size_t a = 0; a < sum.size(); ++a) w = larger(w, magnitude((1.0 / d.volume[a]) * sum[a] - identity()));
   return w;
 }
 
@@ -93,7 +96,7 @@ Identities identities_of_delaunay(const Discretization& d, double solid_volume) 
       const auto ab = static_cast<std::size_t>(i);
       rows[k].add(d.bonds.B_ab[ab]);
       if (on_boundary[k] && on_boundary[static_cast<std::size_t>(d.bonds.neighbour[ab])]) continue;
-      antisymmetry = std::max(antisymmetry, norm(d.bonds.B_ab[ab] + d.bonds.B_ba[ab]) / size);
+      antisymmetry = larger(antisymmetry, norm(d.bonds.B_ab[ab] + d.bonds.B_ba[ab]) / size);
     }
   }
   result["rows"] = worst(rows);
@@ -118,8 +121,8 @@ Identities identities_of_voronoi(const Discretization& d, const Cells& cells, do
     const double A = norm(f.area), L = norm(X_b - X_a);
     const Vec3 B_ab = (A / L) * (f.centroid - X_a), B_ba = (A / L) * (f.centroid - X_b);
     const double size = std::cbrt(d.volume[static_cast<std::size_t>(f.a)]);
-    antisymmetry = std::max(antisymmetry, std::abs(dot(B_ab + B_ba, normalized(X_b - X_a))) / (size * size));
-    area = std::max(area, norm(B_ab - B_ba - f.area) / (size * size));
+    antisymmetry = larger(antisymmetry, std::abs(dot(B_ab + B_ba, normalized(X_b - X_a))) / (size * size));
+    area = larger(area, norm(B_ab - B_ba - f.area) / (size * size));
   }
   for (const BoundaryFace& f : cells.boundary) rows[static_cast<std::size_t>(f.owner)].add(f.area);
   result["rows"] = worst(rows);
@@ -140,7 +143,7 @@ Identities identities_of_voronoi(const Discretization& d, const Cells& cells, do
 
 Identities worst_of(const Identities& a, const Identities& b) {
   Identities result = a;
-  for (const auto& [name, value] : b) result[name] = std::max(result[name], value);
+  for (const auto& [name, value] : b) result[name] = larger(result[name], value);
   return result;
 }
 
