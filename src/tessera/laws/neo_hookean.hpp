@@ -28,6 +28,19 @@ struct NeoHookean {
     return ((lambda * std::log(J) - mu) / J) * cofactor(F) + mu * F;
   }
 
+  /// Energy and stress together, which share the logarithm.
+  struct Response {
+    double energy;  // [J/m3]
+    Mat3 stress;    // [Pa]
+  };
+  Response response(const Mat3& F) const {
+    const Mat3 cof = cofactor(F);
+    const double J = F(0, 0) * cof(0, 0) + F(0, 1) * cof(0, 1) + F(0, 2) * cof(0, 2);
+    const double ln_J = std::log(J);
+    return {ln_J * (0.5 * lambda * ln_J - mu) + 0.5 * mu * (contract(F, F) - 3.0),
+            ((lambda * ln_J - mu) / J) * cof + mu * F};
+  }
+
   /// Plane-wave modulus lambda + 2 mu [Pa]; rho c_p^2 in [D 55].
   constexpr double plane_wave_modulus() const { return lambda + 2.0 * mu; }
 };

@@ -100,8 +100,9 @@ inline Mat3 particle_stress(const StressSweep& w, const Law& law, Index a, const
   const double V = w.s.d.volume[static_cast<std::size_t>(a)];
   sums.smallest_J = std::min(sums.smallest_J, J);
   sums.finite = sums.finite && std::isfinite(J);
-  sums.internal += V * law.energy(F);
-  Mat3 P = law.stress(F);
+  const auto response = law.response(F);
+  sums.internal += V * response.energy;
+  Mat3 P = response.stress;
   if (w.viscous != nullptr && w.dt > 0.0) {
     const auto k = static_cast<std::size_t>(a);
     const Mat3 dF = F - to_mat3(w.viscous->F_previous[k]);
