@@ -3,11 +3,11 @@
 
     render.py OUT.png FRAME.vtu ... [--layout row|column|grid|scene] [--columns N]
               [--quantity von_mises --scale 1e-3 --title "..."] [--range LO HI] [--labels "t = 0 s" ...] [--from X Y Z]
-              [--up X Y Z] [--size W H] [--edges] [--radius R] [--zoom Z]
+              [--up X Y Z] [--size W H] [--edges] [--radius R ...] [--zoom Z]
 
-cells_*.vtu show the outside of the body, fields_*.vtu a sphere of radius R for every particle. Each frame has its own
-panel, or with --layout scene all stand together where they are in space. Needs python3-vtk9 and a display; without one it
-starts itself again under xvfb-run (package xvfb).
+cells_*.vtu show the outside of the body, fields_*.vtu a sphere of radius R for every particle (one R, or one a frame). Each
+frame has its own panel, or with --layout scene all stand together where they are in space. Needs python3-vtk9 and a
+display; without one it starts itself again under xvfb-run (package xvfb).
 """
 
 import argparse
@@ -227,11 +227,12 @@ def render(output, grids, *, layout="row", columns=None, quantity="von_mises", s
     strip = 80 / size[1]
     renderer_in(window, (0, 0, 1, 1))  # white behind panels that stay empty
     bounds = bounds_of(grids)
+    radii = {id(grid): radius[min(i, len(radius) - 1)] if radius else None for i, grid in enumerate(grids)}
     groups = [grids] if layout == "scene" else [[grid] for grid in grids]
     for i, (group, viewport) in enumerate(zip(groups, panels(len(groups), layout, columns, strip))):
         renderer = renderer_in(window, viewport)
         for grid in group:
-            renderer.AddActor(body_actor(grid, table, radius, edges))
+            renderer.AddActor(body_actor(grid, table, radii[id(grid)], edges))
         if layout == "scene":
             for grid, text in zip(grids, labels):
                 renderer.AddViewProp(note(text, grid, bounds, direction, up))
@@ -266,7 +267,7 @@ def arguments():
     parser.add_argument("--up", type=float, nargs=3, default=(0, 0, 1))
     parser.add_argument("--size", type=int, nargs=2, default=(1200, 500))
     parser.add_argument("--edges", action="store_true")
-    parser.add_argument("--radius", type=float, help="draw spheres of this radius at the particles")
+    parser.add_argument("--radius", type=float, nargs="+", help="draw spheres of this radius at the particles")
     parser.add_argument("--zoom", type=float, default=1.0)
     return parser.parse_args()
 
