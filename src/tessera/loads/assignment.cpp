@@ -184,35 +184,70 @@ class ParticleConstraints {
       for (const Row& row : rows_) expected += dot(direction, row.direction) * value(row, t);
       const double wanted = dot(direction, displacement_at(c, t, X_));
       size = std::max({size, std::abs(expected), std::abs(wanted)});
-      if (std::abs(expected - wanted) > 1e-9 * size)
-        report_conflict(c, *rows_.front().parts.front().condition, "particle", X_);
+      if (std::abs(expected - wanted) > 1e-9 * size) report_conflict(c, holder_of(direction), "particle", X_);
     }
+  }
+
+  /// The entry that holds most of a direction.
+  const BoundaryCondition& holder_of(const Vec3& direction) const {
+    const auto share = [&](const Row& row) { return std::abs(dot(row.direction, direction)); };
+    const auto row =
+        std::max_element(rows_.begin(), rows_.end(), [&](const Row& l, const Row& r) { return share(l) < share(r); });
+    return *row->parts.front().condition;
   }
 
   Vec3 X_;
   std::vector<Row> rows_;
 };
 
-/// Distinct normals of the pieces around each particle that an entry takes.
-std::vector<std::vector<Vec3>> selected_normals(const Surface& surface, const std::vector<char>& piece_taken,
-                                                std::size_t particles) {
-  std::vector<std::vector<Vec3>> normals(particles);
-  for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
-    if (!piece_taken[i]) continue;
-    for (Index a : surface.pieces[i].vertices) {
+/// What an entry takes of a surface whose corners are particles.
+struct Taken {
+  std::vector<char> piece, particle;
+};
+
+bool is_among(const std::vector<Vec3>& normals, const Vec3& N) {
+  return std::any_of(normals.begin(), normals.end(), [&](const Vec3& n) { return norm(n - N) < 1e-6; });
+}
+
+/// Distinct normals of the pieces around each particle that an entry takes. A particle at the rim of a formula may
+/// have no whole piece; it takes the normals that it shares with the rest of the entry.
+std::vector<std::vector<Vec3>> selected_normals(const Surface& surface, const Taken& taken) {
+  std::vector<std::vector<Vec3>> normals(taken.particle.size());
+  const auto note = [&](const SurfacePiece& piece, const auto& wants) {
+    for (Index a : piece.vertices) {
       auto& list = normals[static_cast<std::size_t>(a)];
-      const Vec3& N = surface.pieces[i].N;
-      if (std::none_of(list.begin(), list.end(), [&](const Vec3& n) { return norm(n - N) < 1e-6; })) list.push_back(N);
+      if (wants(static_cast<std::size_t>(a)) && !is_among(list, piece.N)) list.push_back(piece.N);
     }
-  }
+  };
+  for (std::size_t i = 0; i < surface.pieces.size(); ++i)
+    if (taken.piece[i]) note(surface.pieces[i], [](std::size_t) { return true; });
+
+  std::vector<char> at_rim(normals.size(), 0);
+  for (std::size_t a = 0; a < normals.size(); ++a) at_rim[a] = taken.particle[a] && normals[a].empty() ? 1 : 0;
+  if (std::find(at_rim.begin(), at_rim.end(), 1) == at_rim.end()) return normals;
+  std::vector<Vec3> of_entry;
+  for (std::size_t i = 0; i < surface.pieces.size(); ++i)
+    if (taken.piece[i] && !is_among(of_entry, surface.pieces[i].N)) of_entry.push_back(surface.pieces[i].N);
+  for (const SurfacePiece& piece : surface.pieces)
+    if (is_among(of_entry, piece.N)) note(piece, [&](std::size_t a) { return at_rim[a] != 0; });
   return normals;
+}
+
+bool needs_normals(const BoundaryCondition& c) {
+  const auto* condition = std::get_if<Condition>(&c.kind);
+  return condition != nullptr && (*condition == Condition::symmetric || *condition == Condition::antisymmetric);
+}
+
+[[noreturn]] void report_no_normal(const BoundaryCondition& c, const Vec3& X) {
+  throw InputError(c.where.origin,
+                   fmt::format("takes the particle at {} but no boundary triangle around it as a whole, so there is no "
+                               "normal to be symmetric or antisymmetric about; take a side by name or more particles",
+                               place(X)));
 }
 
 /// The projection onto all directions that an entry constrains, given the normals of its pieces at the particle.
 Mat3 span_of(const BoundaryCondition& c, const std::vector<Vec3>& normals) {
-  const auto* condition = std::get_if<Condition>(&c.kind);
-  if (condition == nullptr || *condition == Condition::fixed || *condition == Condition::free)
-    return projection(c, Vec3{});
+  if (!needs_normals(c)) return projection(c, Vec3{});
   Mat3 D;
   for (const Vec3& N : normals) {
     const Mat3 E = projection(c, N);
@@ -224,11 +259,6 @@ Mat3 span_of(const BoundaryCondition& c, const std::vector<Vec3>& normals) {
   }
   return D;
 }
-
-/// What an entry takes of a surface whose corners are particles.
-struct Taken {
-  std::vector<char> piece, particle;
-};
 
 Taken take(const BoundaryCondition& c, const Surface& surface, std::span<const Vec3> X) {
   const Selection where = compile(c, surface);
@@ -259,9 +289,12 @@ std::vector<PointConstraint> constrain_particles(const Surface& surface, std::sp
     const Taken taken = take(*c, surface, X);
     if (std::none_of(taken.particle.begin(), taken.particle.end(), [](char t) { return t; }))
       report_nothing(*c, surface, "boundary particle");
-    const auto normals = selected_normals(surface, taken.piece, X.size());
-    for (std::size_t a = 0; a < X.size(); ++a)
-      if (taken.particle[a]) constraints[a].add(*c, span_of(*c, normals[a]), end);
+    const auto normals = selected_normals(surface, taken);
+    for (std::size_t a = 0; a < X.size(); ++a) {
+      if (!taken.particle[a]) continue;
+      if (needs_normals(*c) && normals[a].empty()) report_no_normal(*c, X[a]);
+      constraints[a].add(*c, span_of(*c, normals[a]), end);
+    }
   }
   std::vector<PointConstraint> result;
   for (const ParticleConstraints& p : constraints) result.push_back(p.result());

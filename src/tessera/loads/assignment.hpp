@@ -35,7 +35,8 @@ std::vector<PointConstraint> constrain_faces(const Surface& surface,
 
 /// Constraints of the particles of a delaunay body, one per particle (zero D inside and where nothing is said). Entries
 /// may overlap at edges and corners as long as they prescribe the same motion at the times 0, 0.37 and 1 of `end`;
-/// otherwise InputError that names both. `X` are the particles' material positions.
+/// otherwise InputError that names both, as when a symmetric or antisymmetric entry takes a particle without a normal.
+/// `X` are the particles' material positions.
 std::vector<PointConstraint> constrain_particles(const Surface& surface, std::span<const Vec3> X,
                                                  std::span<const BoundaryCondition* const> conditions, double end);
 
