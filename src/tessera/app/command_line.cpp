@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_threads = 4096;
 
-const std::vector<std::string> command_names = {"run", "check", "describe", "new", "help"};
+const std::vector<std::string> command_names = {"run", "check", "describe", "new", "bench", "help"};
 
 /// The library's parser together with the variables that it fills.
 class CommandLine {
@@ -30,6 +30,7 @@ class CommandLine {
     add_check();
     add_describe();
     add_new();
+    add_bench();
     help_ = app_.add_subcommand("help", "Print the help of a command");
     help_->add_option("COMMAND", help_for_, "run, check, describe or new");
   }
@@ -73,6 +74,16 @@ class CommandLine {
     describe_->add_flag("--markdown", describe_values_.markdown, "Print everything as Markdown");
   }
 
+  void add_bench() {
+    bench_ = app_.add_subcommand("bench", "Measure the speed of every stage on this machine");
+    bench_->add_option("--particles", bench_values_.particles, "About how many; default 10^4, 10^5 and 10^6")
+        ->check(CLI::Range(1000, 100'000'000));
+    bench_->add_option("--formulation", bench_values_.formulation, "voronoi (default) or delaunay")
+        ->check(CLI::IsMember({"voronoi", "delaunay"}));
+    bench_->add_flag("--json", bench_values_.json, "Print JSON");
+    add_threads(bench_, bench_values_.threads);
+  }
+
   void add_new() {
     new_ = app_.add_subcommand("new", "Copy one of the shipped examples as a starting point");
     new_->add_option("NAME", new_values_.name, "Name of the example");
@@ -98,6 +109,7 @@ class CommandLine {
     if (version_) return VersionCommand{};
     if (*run_) return run_values_;
     if (*check_) return check_values_;
+    if (*bench_) return bench_values_;
     if (*describe_) return describe_values_;
     if (*help_) return help();
     if (*new_) {
@@ -117,7 +129,7 @@ class CommandLine {
   }
 
   std::string help_hint() const {
-    for (const CLI::App* command : {run_, check_, describe_, new_})
+    for (const CLI::App* command : {run_, check_, describe_, new_, bench_})
       if (*command) return "help " + command->get_name();
     return "--help";
   }
@@ -136,11 +148,12 @@ class CommandLine {
  private:
   CLI::App app_;
   bool version_ = false;
-  CLI::App *run_, *check_, *describe_, *new_, *help_;
+  CLI::App *run_, *check_, *describe_, *new_, *bench_, *help_;
   RunCommand run_values_;
   CheckCommand check_values_;
   DescribeCommand describe_values_;
   NewCommand new_values_;
+  BenchCommand bench_values_;
   std::string help_for_;
 };
 

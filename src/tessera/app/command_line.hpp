@@ -38,6 +38,14 @@ struct NewCommand {
   bool list = false;
 };
 
+/// tessera bench
+struct BenchCommand {
+  int particles = 0;  // 0: all sizes
+  int threads = 0;    // 0: one to all
+  std::string formulation = "voronoi";
+  bool json = false;
+};
+
 /// tessera --version
 struct VersionCommand {};
 
@@ -46,7 +54,7 @@ struct HelpCommand {
   std::string text;
 };
 
-using Command = std::variant<RunCommand, CheckCommand, DescribeCommand, NewCommand, VersionCommand, HelpCommand>;
+using Command = std::variant<RunCommand, CheckCommand, DescribeCommand, NewCommand, BenchCommand, VersionCommand, HelpCommand>;
 
 /// What the arguments (without the program's name) ask for. Throws UsageError.
 Command parse_command_line(const std::vector<std::string>& arguments);

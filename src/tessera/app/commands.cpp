@@ -7,6 +7,7 @@
 #include "tessera/app/examples.hpp"
 #include "tessera/app/version.hpp"
 #include "tessera/base/text.hpp"
+#include "tessera/bench/bench.hpp"
 #include "tessera/input/case_file.hpp"
 #include "tessera/input/describe.hpp"
 #include "tessera/simulation/run.hpp"
@@ -81,6 +82,15 @@ void execute(const NewCommand& command) {
   }
   const std::string directory = command.directory.empty() ? command.name : command.directory;
   for (const std::string& file : copy_example(command.name, directory)) fmt::print("tessera run {}\n", file);
+}
+
+void execute(const BenchCommand& command) {
+  BenchOptions options;
+  if (command.particles > 0) options.particles = command.particles;
+  if (command.threads > 0) options.threads = command.threads;
+  if (command.formulation == "delaunay") options.formulation = Formulation::delaunay;
+  const BenchReport report = run_bench(options);
+  fmt::print("{}", command.json ? to_json(report) : to_table(report));
 }
 
 void execute(const VersionCommand&) { fmt::print("{}", version_text()); }

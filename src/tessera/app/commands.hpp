@@ -11,6 +11,7 @@ void execute(const RunCommand& command);
 void execute(const CheckCommand& command);
 void execute(const DescribeCommand& command);
 void execute(const NewCommand& command);
+void execute(const BenchCommand& command);
 void execute(const VersionCommand& command);
 void execute(const HelpCommand& command);
 

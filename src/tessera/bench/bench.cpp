@@ -1,0 +1,205 @@
+#include "tessera/bench/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tessera/bench/layout.hpp"
+#include "tessera/bench/triad.hpp"
+#include "tessera/discretization/delaunay.hpp"
+#include "tessera/discretization/voronoi.hpp"
+#include "tessera/dynamics/leapfrog.hpp"
+#include "tessera/parallel/parallel.hpp"
+#include "tessera/tessellation/cells.hpp"
+
+namespace tessera {
+
+namespace {
+
+constexpr Index sizes[] = {10'000, 100'000, 1'000'000};
+constexpr int batches = 5;
+constexpr double shortest_batch = 0.2;  // [s]
+
+double seconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// Median time of one call, from batches that are long enough for the clock.
+double seconds_per_call(const std::function<void()>& work) {
+  const double first = seconds(work);
+  const int calls = std::max(1, static_cast<int>(std::ceil(shortest_batch / std::max(first, 1e-9))));
+  std::vector<double> times;
+  for (int b = 0; b < batches; ++b)
+    times.push_back(seconds([&] {
+                      for (int i = 0; i < calls; ++i) work();
+                    }) /
+                    calls);
+  return median(times);
+}
+
+Material bench_material() {
+  Material m;
+  m.name = "rubber";
+  m.young = 17e6;
+  m.poisson = 0.3;
+  m.density = 1100.0;
+  m.law = NeoHookean::from_young_poisson(m.young, m.poisson);
+  return m;
+}
+
+/// A unit cube with about `particles` particles.
+System build(Index particles, Formulation formulation, std::map<std::string, double>& stages) {
+  Shape shape;
+  shape.kind = BoxShape{{0, 0, 0}, {1, 1, 1}};
+  const Solid solid = build_solid(shape);
+  const int n = static_cast<int>(std::lround(std::cbrt(static_cast<double>(particles))));
+  LatticeSpec lattice;
+  lattice.counts = std::array<int, 3>{n, n, n};
+  lattice.jitter = 0.25;
+  const bool delaunay = formulation == Formulation::delaunay;
+
+  PointSet points;
+  std::vector<Vec3> X;
+  stages["points"] = seconds([&] {
+    points = place_particles({lattice, {}}, solid, delaunay ? Placement::vertices : Placement::cell_centres);
+    for (Index i : hilbert_order(points.points)) X.push_back(points.points[static_cast<std::size_t>(i)]);
+  });
+  Discretization d;
+  if (delaunay) {
+    TetrahedralMesh mesh;
+    stages["cells"] = seconds([&] { mesh = tetrahedralize(points, solid, Tetrahedralization::automatic); });
+    stages["bonds"] = seconds([&] { d = discretize_delaunay(mesh, {}); });
+  } else {
+    Cells cells;
+    stages["cells"] = seconds([&] { cells = voronoi_cells(X, solid); });
+    const std::vector<Mat3> D(cells.boundary.size());
+    stages["bonds"] = seconds([&] { d = discretize_consistent(X, cells, D); });
+  }
+  System system;
+  stages["system"] = seconds([&] {
+    const std::vector<Index> material(d.X.size(), 0);
+    system = make_system(std::move(d), {bench_material()}, material);
+  });
+  return system;
+}
+
+/// The sweeps one by one, on arrays of their own.
+void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
+  const State state = reference_state(s);
+  const auto n = static_cast<std::size_t>(s.particles());
+  Field<Columns> F(n), T(n);
+  Field<Double4> f(n);
+  const auto sweep = [&](auto&& body) {
+    return seconds_per_call([&] {
+      parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
+        body(static_cast<Index>(begin), static_cast<Index>(end));
+      });
+    });
+  };
+  stages["strain"] = sweep([&](Index begin, Index end) { strain_sweep(s, state.x.data(), F.data(), begin, end); });
+  const StressSweep stress{s, state.x.data(), F.data(), T.data(), nullptr, f.data(), nullptr, 0.0};
+  stages["stress"] = sweep([&](Index begin, Index end) { stress(s.materials.front(), begin, end); });
+  stages["force"] = sweep([&](Index begin, Index end) {
+    force_sweep(s.d.bonds, s.d.bonds.B_ba.data(), s.d.B_aa.data(), T.data(), f.data(), begin, end);
+  });
+}
+
+double measure_step(const System& s) {
+  Loads loads;
+  State state = reference_state(s);
+  Forces forces(s);
+  const Leapfrog leapfrog(s, loads, 0.0);
+  const double dt = 1e-9;  // the body stays near rest; the work does not depend on the motion
+  return seconds_per_call([&] {
+    forces.evaluate(state, {{}, {}, {}}, dt);
+    leapfrog.step(state, forces, {dt, dt});
+  });
+}
+
+BenchRow measure(Index particles, int threads, Formulation formulation) {
+  parallel::set_threads(threads);
+  BenchRow row;
+  row.threads = threads;
+  row.formulation = formulation == Formulation::delaunay ? "delaunay" : "voronoi";
+  const System system = build(particles, formulation, row.stages);
+  for (const auto& [name, time] : row.stages) row.setup_seconds += time;
+  row.particles = system.particles();
+  row.bytes_per_particle_step = bytes_per_particle_step(system);
+  row.bytes_per_particle = bytes_per_particle(system);
+  measure_sweeps(system, row.stages);
+  row.stages["step"] = measure_step(system);
+  row.particle_steps_per_second = static_cast<double>(row.particles) / row.stages["step"];
+  return row;
+}
+
+std::vector<int> thread_counts(const BenchOptions& options) {
+  if (options.threads) return {*options.threads};
+  std::vector<int> counts;
+  for (int t = 1; t <= parallel::threads(); ++t) counts.push_back(t);
+  return counts;
+}
+
+}  // namespace
+
+BenchReport run_bench(const BenchOptions& options) {
+  BenchReport report;
+  const std::vector<int> threads = thread_counts(options);
+  for (int t : threads) {
+    parallel::set_threads(t);
+    report.triad_bytes_per_second[t] = triad_bandwidth();
+  }
+  std::vector<Index> particles(std::begin(sizes), std::end(sizes));
+  if (options.particles) particles = {*options.particles};
+  for (Index n : particles)
+    for (int t : threads) report.rows.push_back(measure(n, t, options.formulation));
+  return report;
+}
+
+std::string to_json(const BenchReport& report) {
+  nlohmann::ordered_json j;
+  for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
+    j["triad_bytes_per_second"][std::to_string(threads)] = bandwidth;
+  j["results"] = nlohmann::ordered_json::array();
+  for (const BenchRow& r : report.rows)
+    j["results"].push_back({{"particles", r.particles},
+                            {"threads", r.threads},
+                            {"formulation", r.formulation},
+                            {"particle_steps_per_second", r.particle_steps_per_second},
+                            {"bytes_per_particle_step", r.bytes_per_particle_step},
+                            {"bytes_per_particle", r.bytes_per_particle},
+                            {"setup_seconds", r.setup_seconds},
+                            {"stages", r.stages}});
+  return j.dump(2) + "\n";
+}
+
+std::string to_table(const BenchReport& report) {
+  std::string text;
+  for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
+    text += fmt::format("triad on {} thread{}: {:.1f} GB/s\n", threads, threads == 1 ? "" : "s", 1e-9 * bandwidth);
+  text += fmt::format("\n{:>10} {:>8} {:>9} {:>12} {:>8} {:>9} {:>9}  {}\n", "particles", "threads", "set-up s",
+                      "M p-steps/s", "GB/s", "of triad", "B/particle", "strain, stress, force of a step");
+  for (const BenchRow& r : report.rows) {
+    const double traffic = r.particle_steps_per_second * r.bytes_per_particle_step;
+    const double step = r.stages.at("step");
+    text += fmt::format("{:>10} {:>8} {:>9.2f} {:>12.2f} {:>8.1f} {:>8.0f}% {:>10.0f}  {:.0f}%, {:.0f}%, {:.0f}%\n",
+                        r.particles, r.threads, r.setup_seconds, 1e-6 * r.particle_steps_per_second, 1e-9 * traffic,
+                        100.0 * traffic / report.triad_bytes_per_second.at(r.threads), r.bytes_per_particle,
+                        100.0 * r.stages.at("strain") / step, 100.0 * r.stages.at("stress") / step,
+                        100.0 * r.stages.at("force") / step);
+  }
+  return text;
+}
+
+}  // namespace tessera

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tessera/simulation/case.hpp"
+
+namespace tessera {
+
+/// What to measure; unset: all sizes, all numbers of threads.
+struct BenchOptions {
+  std::optional<Index> particles;
+  std::optional<int> threads;
+  Formulation formulation = Formulation::voronoi;
+};
+
+/// One size with one number of threads: particles of a jittered (0.25) lattice in a box.
+struct BenchRow {
+  std::int64_t particles = 0;
+  int threads = 1;
+  std::string formulation;
+  double particle_steps_per_second = 0.0;  // median of several batches of steps
+  double bytes_per_particle_step = 0.0;    // counted from the data layout, gathers of neighbours from cache
+  double bytes_per_particle = 0.0;         // resident data of the mechanics
+  double setup_seconds = 0.0;
+  std::map<std::string, double> stages;  // seconds: set-up stages once, sweeps a step (median)
+};
+
+struct BenchReport {
+  std::map<int, double> triad_bytes_per_second;  // by number of threads
+  std::vector<BenchRow> rows;
+};
+
+/// Measures set-up, sweeps and whole steps on this machine.
+BenchReport run_bench(const BenchOptions& options);
+
+std::string to_json(const BenchReport& report);
+std::string to_table(const BenchReport& report);
+
+}  // namespace tessera
