@@ -1,5 +1,6 @@
 """Runs the program on example cases and reads what it leaves. Standard library only."""
 
+import atexit
 import bisect
 import csv
 import glob
@@ -7,6 +8,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -43,8 +45,10 @@ def read_csv(path):
 
 
 def execute(case, settings=None, threads=1, arguments=()):
-    """Runs examples/<case> with overrides {key: value} in a temporary folder; returns (process, folder)."""
+    """Runs examples/<case> with overrides {key: value} in a temporary folder that lasts as long as the
+    calling script; returns (process, folder)."""
     folder = tempfile.mkdtemp(prefix="tessera-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
     command = [TESSERA, "run", str(EXAMPLES / case), "-o", folder, "-j", str(threads), "--quiet", *arguments]
     for key, value in (settings or {}).items():
         command += ["--set", f"{key}={value if isinstance(value, str) else json.dumps(value)}"]
