@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tessera/simulation/engine.hpp"
 
@@ -112,10 +113,14 @@ void Engine::restore(const Checkpoint& c) {
       tensors(c.array("previous_deformation", 9 * forces_.previous_deformation().size())));
   evaluate(started_ ? dt_.after : 0.0);
 
+  // What acts on the system must be as many as before; nothing is kept before the first step.
+  const std::array<std::size_t, 3> acting{model_.loads.tractions.forces().size(), forces_.reactions().size(),
+                                          model_.system.d.constraints.size()};
   Ledger::Books books{{energy[0], energy[1], energy[2]}, {}};
   for (std::size_t i = 0; i < books.last.size(); ++i) {
-    books.last[i].force = positions(c.array(fmt::format("last_force_{}", i)));
-    books.last[i].place = positions(c.array(fmt::format("last_place_{}", i)));
+    const std::size_t size = step_ > 0 ? 3 * acting[i] : 0;
+    books.last[i].force = positions(c.array(fmt::format("last_force_{}", i), size));
+    books.last[i].place = positions(c.array(fmt::format("last_place_{}", i), size));
   }
   ledger_.restore(std::move(books));
 }
