@@ -9,12 +9,6 @@ find_package(fmt REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
 
-find_path(VOROPP_INCLUDE_DIR voro++/voro++.hh REQUIRED)
-find_library(VOROPP_LIBRARY voro++ REQUIRED)
-add_library(voropp::voropp UNKNOWN IMPORTED)
-set_target_properties(voropp::voropp PROPERTIES IMPORTED_LOCATION ${VOROPP_LIBRARY}
-                      INTERFACE_INCLUDE_DIRECTORIES ${VOROPP_INCLUDE_DIR})
-
 set(TESSERA_HAS_CGAL OFF)
 if(NOT TESSERA_WITH_CGAL STREQUAL "OFF")
   find_package(CGAL CONFIG QUIET)
@@ -29,4 +23,10 @@ message(STATUS "Delaunay tetrahedra by CGAL: ${TESSERA_HAS_CGAL}")
 if(TESSERA_BUILD_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)
+  # An independent implementation of Voronoi cells, for comparison.
+  find_path(VOROPP_INCLUDE_DIR voro++/voro++.hh REQUIRED)
+  find_library(VOROPP_LIBRARY voro++ REQUIRED)
+  add_library(voropp::voropp UNKNOWN IMPORTED)
+  set_target_properties(voropp::voropp PROPERTIES IMPORTED_LOCATION ${VOROPP_LIBRARY}
+                        INTERFACE_INCLUDE_DIRECTORIES ${VOROPP_INCLUDE_DIR})
 endif()

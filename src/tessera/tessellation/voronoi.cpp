@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <memory>
 
 #include "tessera/base/error.hpp"
+#include "tessera/parallel/collect.hpp"
+#include "tessera/parallel/workspaces.hpp"
 #include "tessera/tessellation/cells.hpp"
 #include "tessera/tessellation/voronoi_cutter.hpp"
 
@@ -78,18 +80,26 @@ std::string named(std::span<const Vec3> points, Index a) {
   return fmt::format("particle {} at ({:g}, {:g}, {:g}) m", a, X.x, X.y, X.z);
 }
 
+/// One face of a cell before interior and boundary ones part: the particle or side behind it.
+struct TaggedFace {
+  Index tag = 0;
+  Vec3 area;
+  Vec3 centroid;
+};
+
 class Assembly {
  public:
-  Assembly(std::span<const Vec3> points, const Solid& solid) : points_(points), cutter_(points, solid) {}
+  Assembly(std::span<const Vec3> points, const Solid& solid)
+      : points_(points), cutters_([points, &solid] { return std::make_unique<VoronoiCutter>(points, solid); }) {}
 
   Cells assemble() {
-    const Index n = static_cast<Index>(points_.size());
-    for (Index a = 0; a < n; ++a) add_cell(a);
-    std::sort(cells_.interior.begin(), cells_.interior.end(),
-              [](const InteriorFace& f, const InteriorFace& g) { return std::tie(f.a, f.b) < std::tie(g.a, g.b); });
-    std::sort(cells_.boundary.begin(), cells_.boundary.end(), [](const BoundaryFace& f, const BoundaryFace& g) {
-      return std::tie(f.owner, f.side) < std::tie(g.owner, g.side);
-    });
+    cells_.volume.resize(points_.size());
+    cells_.centroid.resize(points_.size());
+    Csr<TaggedFace> rows = parallel::collect_rows<TaggedFace>(
+        static_cast<Index>(points_.size()),
+        [this](Index a, parallel::RowCollector<TaggedFace>& out) { add_cell(a, out); });
+    sort_out(rows);
+    rows = {};
     close_cells();
     return std::move(cells_);
   }
@@ -98,23 +108,33 @@ class Assembly {
   const Vec3& point(Index a) const { return points_[static_cast<std::size_t>(a)]; }
 
   /// The lower of two particles computes their common face; both cells then use the same numbers.
-  void add_cell(Index a) {
+  void add_cell(Index a, parallel::RowCollector<TaggedFace>& out) {
+    const parallel::Workspaces<VoronoiCutter>::Lease cutter(cutters_);
     CellSums sums;
-    for (const ConvexPolyhedron& part : cutter_.cut(a)) add_part(sums, part, point(a));
+    for (const ConvexPolyhedron& part : cutter->cut(a)) add_part(sums, part, point(a));
     if (!(sums.volume > 0.0))
       throw GeometryError("the Voronoi cell of " + named(points_, a) +
                           " is empty; is it in the solid, and there only once?");
     const double smallest = kRoundoffFace * std::cbrt(sums.volume * sums.volume);
-    for (const MergedFace& face : sums.faces) {
-      if (face.size < smallest) continue;
-      const Vec3 centroid = point(a) + face.centroid();
-      if (VoronoiCutter::is_side(face.tag))
-        cells_.boundary.push_back({a, VoronoiCutter::side_of(face.tag), face.area, centroid});
-      else if (face.tag > a)
-        cells_.interior.push_back({a, face.tag, face.area, centroid});
-    }
-    cells_.volume.push_back(sums.volume);
-    cells_.centroid.push_back(point(a) + sums.moment / sums.volume);
+    std::sort(sums.faces.begin(), sums.faces.end(),
+              [](const MergedFace& f, const MergedFace& g) { return rank(f.tag) < rank(g.tag); });
+    for (const MergedFace& face : sums.faces)
+      if (face.size >= smallest && (VoronoiCutter::is_side(face.tag) || face.tag > a))
+        out.add({face.tag, face.area, point(a) + face.centroid()});
+    cells_.volume[static_cast<std::size_t>(a)] = sums.volume;
+    cells_.centroid[static_cast<std::size_t>(a)] = point(a) + sums.moment / sums.volume;
+  }
+
+  /// Neighbours and sides in ascending order.
+  static Index rank(Index tag) { return VoronoiCutter::is_side(tag) ? VoronoiCutter::side_of(tag) : tag; }
+
+  void sort_out(const Csr<TaggedFace>& rows) {
+    for (Index a = 0; a < rows.rows(); ++a)
+      for (const TaggedFace& face : rows.row(a))
+        if (VoronoiCutter::is_side(face.tag))
+          cells_.boundary.push_back({a, VoronoiCutter::side_of(face.tag), face.area, face.centroid});
+        else
+          cells_.interior.push_back({a, face.tag, face.area, face.centroid});
   }
 
   struct Balance {
@@ -150,7 +170,7 @@ class Assembly {
   }
 
   std::span<const Vec3> points_;
-  VoronoiCutter cutter_;
+  parallel::Workspaces<VoronoiCutter> cutters_;
   Cells cells_;
 };
 
