@@ -109,6 +109,9 @@ struct Discretization {
 /// Appends the particles, bonds and nodes of another body of the same formulation, moving its indices up.
 void append(Discretization& all, Discretization body);
 
+/// Do the forces derive from a potential? Those of [V 42] do not, nor those of [V 43] where a face is constrained.
+bool has_potential(const Discretization& d);
+
 /// The shortest bond between particles with a common face or between a particle and its ghost [m].
 double shortest_length(const Discretization& d);
 

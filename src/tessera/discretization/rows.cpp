@@ -101,6 +101,10 @@ void append(Discretization& all, Discretization body) {
   all.body_volume += body.body_volume;
 }
 
+bool has_potential(const Discretization& d) {
+  return !d.direct && (d.boundary_force == BoundaryForce::potential || d.nodes.empty());
+}
+
 std::vector<double> shortest_bonds(const Discretization& d) {
   std::vector<double> h(d.X.size(), std::numeric_limits<double>::infinity());
   for (Index a = 0; a < d.particles(); ++a)

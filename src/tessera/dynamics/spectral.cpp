@@ -107,11 +107,6 @@ std::pair<double, double> largest_ritz(const std::vector<double>& alpha, const s
 constexpr int most_iterations = 60;
 constexpr double tolerance = 0.01;
 
-/// Do the forces derive from a potential? Those of [V 42] do not, nor those of [V 43] where a face is constrained.
-bool is_conservative(const Discretization& d) {
-  return !d.direct && (d.boundary_force == BoundaryForce::potential || d.nodes.empty());
-}
-
 }  // namespace
 
 /// Three-term Lanczos; the bound is the Ritz value plus its residual.
@@ -157,7 +152,7 @@ double SpectralEstimator::largest_frequency(const State& state, std::span<const 
   const double length = std::sqrt(inner(vector_, vector_));
   if (length == 0.0) return 0.0;  // every particle is held
   scale(vector_, 1.0 / length);
-  const double eigenvalue = is_conservative(system_.d) ? lanczos(K) : power_iteration(K);
+  const double eigenvalue = has_potential(system_.d) ? lanczos(K) : power_iteration(K);
   return std::sqrt(std::max(eigenvalue, 0.0));
 }
 

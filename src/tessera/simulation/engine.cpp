@@ -193,8 +193,7 @@ void Engine::verify_deformation() const {
 void Engine::verify_energy() {
   const EnergyLedger e = energies();
   energy_scale_ = e.scale;
-  // Forces of [V 42] and direct reactions have no potential, so their ledger need not close.
-  if (model_.system.d.boundary_force == BoundaryForce::direct) return;
+  if (!has_potential(model_.system.d)) return;  // the ledger need not close
   if (e.scale < negligible_strain_energy * elastic_scale(model_.system) || e.relative_error() < hopeless_energy_error)
     return;
   Index fastest = 0;
