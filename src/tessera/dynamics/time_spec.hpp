@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-/// dt = safety min(L) / c_p over all bonds.
+/// dt = safety min(L) / c_p over all bonds, but not above nine tenths of the spectral limit at the start.
 struct AutoStep {};
 
 /// dt = safety 2 / omega_max, omega_max from the linearised forces, estimated again as the body deforms.

@@ -12,6 +12,8 @@ namespace {
 
 // Steps between two spectral estimates: an estimate costs some thirty evaluations of the forces.
 constexpr std::int64_t first_interval = 500, shortest_interval = 50, longest_interval = 4000;
+// The automatic step stays below this share of the spectral limit.
+constexpr double largest_share_of_limit = 0.9;
 // Change of the limit between two estimates that calls for closer watch.
 constexpr double watchful_change = 0.02;
 // How much the last step may be longer than the others. The time of many steps adds up with round-off, and what that
@@ -51,11 +53,13 @@ double stable_step(const System& s, double omega) {
 StepControl::StepControl(const TimeSpec& spec, const System& system, const State& state, std::span<const Vec3> walls)
     : spec_(spec), system_(system), estimator_(system) {
   memory_.interval = first_interval;
-  if (std::holds_alternative<AutoStep>(spec.step)) {
-    memory_.dt = spec.safety * shortest_travel_time(system);
-  } else {
-    estimate(0, state, walls);
-  }
+  const bool by_bonds = std::holds_alternative<AutoStep>(spec.step);
+  if (by_bonds) memory_.dt = spec.safety * shortest_travel_time(system);
+  if (by_bonds && spec.end == 0.0) return;
+  estimate(0, state, walls);
+  // Slivers can make a body stiffer than its shortest bond says.
+  if (by_bonds && memory_.dt > largest_share_of_limit * limit_) memory_.dt = largest_share_of_limit * limit_;
+  if (std::holds_alternative<AutoSpectralStep>(spec.step)) memory_.dt = spectral_step();
   if (const auto* fixed = std::get_if<FixedStep>(&spec.step)) {
     if (fixed->dt > limit_ && !fixed->force)
       throw InputError(spec.origin,
@@ -78,13 +82,17 @@ void StepControl::estimate(std::int64_t step, const State& state, std::span<cons
   }
   limit_ = memory_.limit = limit;
   memory_.estimated_at = step;
-  memory_.dt = std::min(spec_.safety * limit, std::max(spec_.end, 1.0));
+}
+
+/// A body of which nothing can move has no limit.
+double StepControl::spectral_step() const {
+  return std::isfinite(limit_) ? spec_.safety * limit_ : std::max(spec_.end, 1.0);
 }
 
 double StepControl::next(std::int64_t step, double time, const State& state, std::span<const Vec3> walls) {
   if (std::holds_alternative<AutoSpectralStep>(spec_.step) && step >= memory_.estimated_at + memory_.interval) {
     estimate(step, state, walls);
-    memory_.dt = divide_evenly(spec_.end - time, memory_.dt);
+    memory_.dt = divide_evenly(spec_.end - time, spectral_step());
   }
   const double rest = spec_.end - time;
   return rest < memory_.dt * (1.0 + last_step_stretch) ? rest : memory_.dt;

@@ -21,7 +21,7 @@ class StepControl {
   /// The step to take from `time` on [s]; never beyond the end.
   double next(std::int64_t step, double time, const State& state, std::span<const Vec3> walls);
 
-  /// The spectral limit of the last estimate [s]; zero when the choice of the step did not need one.
+  /// The spectral limit of the last estimate [s]; zero when nothing is to be integrated.
   double limit() const { return limit_; }
 
   /// What a resumed run must put back.
@@ -34,6 +34,7 @@ class StepControl {
   void restore(const Memory& memory, Field<Double4> start_vector);
 
  private:
+  double spectral_step() const;
   void estimate(std::int64_t step, const State& state, std::span<const Vec3> walls);
 
   TimeSpec spec_;

@@ -57,10 +57,7 @@ Findings examine(const Case& c) {
   if (auto* fixed = std::get_if<FixedStep>(&spec.step)) fixed->force = true;
   StepControl control(spec, model.system, reference_state(model.system), model.loads.motion.positions());
   f.dt = control.memory().dt;
-  SpectralEstimator estimator(model.system);
-  const double omega =
-      estimator.largest_frequency(reference_state(model.system), model.loads.motion.positions(), f.shortest);
-  f.limit = omega > 0.0 ? stable_step(model.system, omega) : 0.0;
+  f.limit = control.limit();
   f.steps = c.time.end > 0.0 ? std::ceil(c.time.end / f.dt) : 0.0;
   f.run_seconds = f.steps * seconds_per_step(model);
   f.memory = peak_memory_bytes();
