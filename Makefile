@@ -2,6 +2,7 @@
 #   make build [PRESET=release]   configure and build (minimal: without the GPL component CGAL)
 #   make demo                     set up, build, run the punch example, say what to open
 #   make test                     set up, build, run all tests, then the same for the preset minimal
+#   make results                  write docs/results.md, the papers' numbers beside ours, from what the last `make test` measured
 #   make check                    warnings as errors, unit tests with assertions, lint
 #   make format                   clang-format in place
 #   make clean                    remove everything that was built, and the demo's result
@@ -9,7 +10,7 @@ PRESET ?= release
 JOBS ?= $(shell nproc)
 export JOBS
 
-.PHONY: build setup demo test check format clean
+.PHONY: build setup demo test results check format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -26,6 +27,9 @@ demo: setup
 test:
 	scripts/setup.sh --test
 	scripts/test.sh release minimal
+
+results:
+	/usr/bin/python3 scripts/results_table.py build/release/verification docs/results.md
 
 check:
 	$(MAKE) --no-print-directory build PRESET=dev
