@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tessera/bench/layout.hpp"
 #include "tessera/bench/triad.hpp"
