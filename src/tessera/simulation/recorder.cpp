@@ -128,9 +128,11 @@ Recorder::Recorder(const Case& c, const Model& model, const Engine& engine, cons
       fields_every_(c.output.fields.every),
       history_every_(c.output.history.every.value_or(0.01 * c.time.end)) {
   if (model.cells) cells_.emplace(open<CellSeries>(from, directory, c.output.fields, *model.cells));
-  if (!from) return;
-  if (fields_every_) next_frame_ = multiples(from->time, *fields_every_) + 1;
-  next_row_ = multiples(from->time, history_every_) + 1;
+  if (!from || engine.steps() == 0) return;
+  // What the step that led here reached is still to be written, even when it was due long before its end.
+  const double before = engine.time() - engine.dt();
+  if (fields_every_) next_frame_ = multiples(before, *fields_every_) + 1;
+  next_row_ = multiples(before, history_every_) + 1;
 }
 
 void Recorder::write_if_due(const Engine& engine) {

@@ -106,7 +106,8 @@ Run::Run(const Case& c, const RunOptions& options) : case_(c), options_(options)
   std::optional<ContinueFrom> from;
   if (options.resume) {
     engine_->restore(read_checkpoint(checkpoint_path(options.directory)));
-    from = ContinueFrom{engine_->time() - 0.5 * engine_->dt()};  // the state itself is written again
+    // The state itself is written again, also the first one.
+    from = ContinueFrom{engine_->steps() > 0 ? engine_->time() - 0.5 * engine_->dt() : -1.0};
   }
   recorder_.emplace(c, *model_, *engine_, options.directory, from);
   write_effective_case(c, options.directory);
