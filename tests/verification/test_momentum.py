@@ -132,8 +132,8 @@ class FreeBeam(FreeBodies, unittest.TestCase):
         h = history(self.case, "delaunay", 0.0)
         p, l = (largest_change(vectors(h, kind, 0)) for kind in "pl")
         runs.record(self.case, [
-            ("delaunay, regular: p1 at the start [kg m/s]", "[D 8.3]", 8.802e4, h["px"][0], None),
-            ("delaunay, regular: l2 at the start [kg m2/s]", "[D 8.3]", 2.972e5, h["ly"][0], None),
+            ("delaunay, regular: p1 at the start [kg m/s]", "[D 8.3]", "8.802e4", f"{h['px'][0]:.4e}", None),
+            ("delaunay, regular: l2 at the start [kg m2/s]", "[D 8.3]", "2.972e5", f"{h['ly'][0]:.4e}", None),
             ("delaunay, regular: change of linear momentum [kg m/s]", "[D 8.3]", 1e-10, p, MOMENTUM_BOUND * h["px"][0]),
             ("delaunay, regular: change of angular momentum [kg m2/s]", "[D 8.3]", 1e-9, l,
              MOMENTUM_BOUND * h["ly"][0]),
