@@ -78,7 +78,10 @@ void Engine::prepare() {
   }
   leapfrog_.prepare(state_, forces_, dt_);
   ledger_.record(state_, forces_, leapfrog_, walls_, dt_, step_ > 0 ? before : 0.0);
-  if (step_ == 0) initial_energy_ = stored_energy() + motion().kinetic;
+  if (step_ > 0) return;
+  const Motion start = motion();
+  initial_energy_ = stored_energy() + start.kinetic;
+  initial_momentum_ = to_momentum(start);
 }
 
 void Engine::advance() {

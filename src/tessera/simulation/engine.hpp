@@ -36,6 +36,7 @@ class Engine {
   // Observations; prepare() was called for this time.
   EnergyLedger energies() const;
   Momentum momentum() const;
+  const Momentum& initial_momentum() const { return initial_momentum_; }
   Snapshot snapshot() const;
   /// Force on what prescribes the motion of each boundary node (voronoi) or constrained particle (delaunay) [N].
   const std::vector<Vec3>& reactions() const;
@@ -73,6 +74,7 @@ class Engine {
   StepPair dt_;
   bool started_ = false;  // velocities are half a step behind
   double initial_energy_ = 0.0;
+  Momentum initial_momentum_;
   double energy_scale_ = 0.0;
 };
 

@@ -69,6 +69,7 @@ Checkpoint Engine::checkpoint() const {
   c.arrays["initial_position"] = flat(x0_.data(), n);
   c.arrays["time"] = {time_, dt_.before, dt_.after, step.dt, step.limit, model_.loads.motion.time()};
   c.arrays["energy"] = {books.accounts[0], books.accounts[1], books.accounts[2], initial_energy_, energy_scale_};
+  c.arrays["initial_momentum"] = flat({initial_momentum_.linear, initial_momentum_.angular});
   c.arrays["integrated_motion"] = flat(model_.loads.motion.integrated());
   c.arrays["spectral_vector"] = flat(control_.start_vector().data(), control_.start_vector().size());
   for (std::size_t i = 0; i < books.last.size(); ++i) {
@@ -104,6 +105,8 @@ void Engine::restore(const Checkpoint& c) {
   control_.restore({time[3], time[4], step[1], step[2]}, vectors(c.array("spectral_vector")));
   initial_energy_ = energy[3];
   energy_scale_ = energy[4];
+  const std::vector<Vec3> momentum = positions(c.array("initial_momentum", 6));
+  initial_momentum_ = {momentum[0], momentum[1]};
 
   model_.loads.motion.restore(time[5],
                               positions(c.array("integrated_motion", 3 * model_.loads.motion.integrated().size())));

@@ -90,8 +90,6 @@ class Run {
   std::optional<Progress> progress_;
   std::optional<CheckpointTimer> checkpoint_timer_;
   std::int64_t first_step_ = 0;
-  Momentum first_momentum_;
-  bool first_momentum_known_ = false;
   Checkpoint backup_;
   StopSignals signals_;
 };
@@ -165,8 +163,6 @@ void Run::keep_going() {
 
 void Run::observe() {
   const Stopwatch watch(wall_.output);
-  if (!first_momentum_known_) first_momentum_ = engine_->momentum();
-  first_momentum_known_ = true;
   if (engine_->steps() % energy_interval == 0 || engine_->finished()) {
     engine_->verify_energy();
     progress_->update(engine_->time(), engine_->steps(), engine_->energies().relative_error());
@@ -199,7 +195,8 @@ void Run::summarise(const std::string& status, const std::string& message) {
   s.peak_memory_bytes = peak_memory_bytes();
   s.energy = engine_->energies();
   s.momentum = engine_->momentum();
-  s.momentum_change = {s.momentum.linear - first_momentum_.linear, s.momentum.angular - first_momentum_.angular};
+  const Momentum& start = engine_->initial_momentum();
+  s.momentum_change = {s.momentum.linear - start.linear, s.momentum.angular - start.angular};
   if (!case_.references.empty()) {
     const Snapshot snapshot = engine_->snapshot();
     for (const ReferenceSpec& r : case_.references) s.errors[r.name] = displacement_error(snapshot, r);
