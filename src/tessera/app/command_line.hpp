@@ -54,7 +54,8 @@ struct HelpCommand {
   std::string text;
 };
 
-using Command = std::variant<RunCommand, CheckCommand, DescribeCommand, NewCommand, BenchCommand, VersionCommand, HelpCommand>;
+using Command =
+    std::variant<RunCommand, CheckCommand, DescribeCommand, NewCommand, BenchCommand, VersionCommand, HelpCommand>;
 
 /// What the arguments (without the program's name) ask for. Throws UsageError.
 Command parse_command_line(const std::vector<std::string>& arguments);

@@ -119,9 +119,10 @@ void build_bonds(Discretization& d, const RowAssembler& assembler) {
     bonds.area_over_length[k] = rows.value[k].area;  // divided by the length below
   });
   rows = {};
-  complete_bonds(bonds, d.X);
-  parallel::for_each(static_cast<std::int64_t>(n), [&](std::int64_t i) {
-    bonds.area_over_length[static_cast<std::size_t>(i)] /= norm(bonds.X_ab[static_cast<std::size_t>(i)]);
+  complete_bonds(bonds);
+  parallel::for_each(bonds.rows(), [&](std::int64_t a) {
+    for (Offset i = bonds.begin(static_cast<Index>(a)); i < bonds.end(static_cast<Index>(a)); ++i)
+      bonds.area_over_length[static_cast<std::size_t>(i)] /= norm(d.branch(static_cast<Index>(a), i));
   });
 }
 

@@ -54,11 +54,14 @@ void build_bonds(Discretization& d, const TetrahedralMesh& mesh) {
     });
     d.bonds.offset.push_back(static_cast<Offset>(d.bonds.neighbour.size()));
   }
-  complete_bonds(d.bonds, d.X);
+  complete_bonds(d.bonds);
   // A_ab = 2 (|B_ab| + |B_ba|), [D 60].
   d.bonds.area_over_length.resize(d.bonds.neighbour.size());
-  for (std::size_t i = 0; i < d.bonds.neighbour.size(); ++i)
-    d.bonds.area_over_length[i] = 2.0 * (norm(d.bonds.B_ab[i]) + norm(d.bonds.B_ba[i])) / norm(d.bonds.X_ab[i]);
+  for (Index a = 0; a < d.particles(); ++a)
+    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      d.bonds.area_over_length[k] = 2.0 * (norm(d.bonds.B_ab[k]) + norm(d.bonds.B_ba[k])) / norm(d.branch(a, i));
+    }
 }
 
 void build_sites(Discretization& d, const TetrahedralMesh& mesh) {

@@ -17,7 +17,6 @@ struct Bonds {
   std::vector<Index> neighbour;
   std::vector<Vec3> B_ab;                // gradient vector: dF_a / dx_b = B_ab / V_a [m2]
   std::vector<Vec3> B_ba;                // the neighbour's gradient vector towards a [m2]
-  std::vector<Vec3> X_ab;                // branch vector X_b - X_a [m]
   std::vector<double> area_over_length;  // A_ab / L_ab of the bond stiffness [D 60], [V 50]; 0: no common face [m]
 
   Index rows() const { return static_cast<Index>(offset.size()) - 1; }
@@ -104,6 +103,11 @@ struct Discretization {
   double body_volume = 0.0;                     // of the solid, for the identity sum V_a = V [m3]
 
   Index particles() const { return static_cast<Index>(X.size()); }
+  /// Reference branch vector X_ab of the bond at position `bond` in row a [m]; cheaper to compute than to keep.
+  Vec3 branch(Index a, Offset bond) const {
+    return X[static_cast<std::size_t>(bonds.neighbour[static_cast<std::size_t>(bond)])] -
+           X[static_cast<std::size_t>(a)];
+  }
 };
 
 /// Appends the particles, bonds and nodes of another body of the same formulation, moving its indices up.

@@ -127,7 +127,7 @@ class GhostDiscretization {
         add_boundary(row, GhostParticle(a, X_, cells_, faces_, D_), a);
       finish_row(row, a);
     }
-    complete_bonds(d_.bonds, d_.X);
+    complete_bonds(d_.bonds);
     add_stiffness();
     add_loads();
     d_.B_aa = diagonal_vectors(d_);
@@ -226,7 +226,8 @@ void GhostDiscretization::add_stiffness() {
   for (const InteriorFace& f : cells_.interior) {
     const auto ab = static_cast<std::size_t>(d_.bonds.find(f.a, f.b));
     const auto ba = static_cast<std::size_t>(d_.bonds.find(f.b, f.a));
-    d_.bonds.area_over_length[ab] = d_.bonds.area_over_length[ba] = norm(f.area) / norm(d_.bonds.X_ab[ab]);
+    d_.bonds.area_over_length[ab] = d_.bonds.area_over_length[ba] =
+        norm(f.area) / norm(d_.branch(f.a, static_cast<Offset>(ab)));
   }
 }
 

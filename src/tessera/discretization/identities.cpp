@@ -42,7 +42,7 @@ double duality(const Discretization& d) {
   for (Index a = 0; a < d.particles(); ++a)
     for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
       const auto k = static_cast<std::size_t>(i);
-      sum[static_cast<std::size_t>(a)] += outer(d.bonds.X_ab[k], d.bonds.B_ab[k]);
+      sum[static_cast<std::size_t>(a)] += outer(d.branch(a, i), d.bonds.B_ab[k]);
     }
   for (const BoundaryNode& f : d.nodes) {
     const auto a = static_cast<std::size_t>(f.owner);

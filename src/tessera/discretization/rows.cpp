@@ -14,16 +14,14 @@ Offset Bonds::find(Index a, Index b) const {
   return it != last && *it == b ? it - neighbour.begin() : -1;
 }
 
-void complete_bonds(Bonds& bonds, const std::vector<Vec3>& X) {
+void complete_bonds(Bonds& bonds) {
   const auto n = static_cast<std::size_t>(bonds.size());
-  bonds.X_ab.resize(n);
   bonds.B_ba.resize(n);
   parallel::for_each(bonds.rows(), [&](std::int64_t row) {
     const auto a = static_cast<Index>(row);
     for (Offset i = bonds.begin(a); i < bonds.end(a); ++i) {
       const auto k = static_cast<std::size_t>(i);
       const Index b = bonds.neighbour[k];
-      bonds.X_ab[k] = X[static_cast<std::size_t>(b)] - X[static_cast<std::size_t>(a)];
       bonds.B_ba[k] = bonds.B_ab[static_cast<std::size_t>(bonds.find(b, a))];
     }
   });
@@ -65,7 +63,6 @@ void append_bonds(Bonds& all, Bonds& more, Index shift) {
   for (Index b : more.neighbour) all.neighbour.push_back(b + shift);
   move_to_end(all.B_ab, more.B_ab);
   move_to_end(all.B_ba, more.B_ba);
-  move_to_end(all.X_ab, more.X_ab);
   move_to_end(all.area_over_length, more.area_over_length);
 }
 
@@ -111,7 +108,7 @@ std::vector<double> shortest_bonds(const Discretization& d) {
     for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
       const auto k = static_cast<std::size_t>(i);
       if (d.bonds.area_over_length[k] > 0.0)
-        h[static_cast<std::size_t>(a)] = std::min(h[static_cast<std::size_t>(a)], norm(d.bonds.X_ab[k]));
+        h[static_cast<std::size_t>(a)] = std::min(h[static_cast<std::size_t>(a)], norm(d.branch(a, i)));
     }
   for (std::size_t a = 0; a < h.size(); ++a)  // a body of one particle has no bond
     if (!std::isfinite(h[a])) h[a] = std::cbrt(d.volume[a]);

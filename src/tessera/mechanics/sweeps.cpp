@@ -68,17 +68,18 @@ inline BondSums sum_bonds(const System& s, const Double4* x, const Columns* F, d
                           Index a) {
   const Bonds& bonds = s.d.bonds;
   const Index* neighbour = bonds.neighbour.data();
-  const Vec3* X_ab = bonds.X_ab.data();
+  const Vec3* X_ref = s.d.X.data();
   const double* area_over_length = bonds.area_over_length.data();
   const double stiffness_difference = stiffness_n - stiffness_t;
   const Double4 x_a = x[a];
+  const Vec3 X_a = X_ref[a];
   const Columns F_a = F[a];
   BondSums sums;
   Double4 energy{};
   const Offset end = bonds.offset[static_cast<std::size_t>(a) + 1];
   for (Offset i = bonds.offset[static_cast<std::size_t>(a)]; i < end; ++i) {
     const Index b = neighbour[i];
-    const Vec3 X = X_ab[i];
+    const Vec3 X = X_ref[b] - X_a;
     const Double4 x_ab = x[b] - x_a;
     const Double4 u = x_ab - 0.5 * apply(F_a + F[b], X);      // [D 7]
     const double p = ratio_of_products(u, x_ab, x_ab, x_ab);  // u^n = p x_ab, [D 10]

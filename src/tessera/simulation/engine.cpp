@@ -53,7 +53,7 @@ Engine::Engine(Model& model, const TimeSpec& spec)
     Double4& x = state_.x[static_cast<std::size_t>(constraints[i].particle)];
     x = to_kernel(constraints[i].D * (model.loads.motion.positions()[i] - to_vec3(x)) + to_vec3(x));
   }
-  x0_.assign(state_.x.begin(), state_.x.begin() + model.system.particles());
+  if (model.loads.gravity != Vec3{}) x0_.assign(state_.x.begin(), state_.x.begin() + model.system.particles());
   evaluate(0.0);
   verify_deformation();
 }

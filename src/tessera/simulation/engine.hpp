@@ -63,7 +63,7 @@ class Engine {
   Model& model_;
   TimeSpec spec_;
   State state_;
-  Field<Double4> x0_;  // positions at the start, where the work of gravity begins
+  Field<Double4> x0_;  // positions at the start, where the work of gravity begins; empty without it
   Forces forces_;
   Leapfrog leapfrog_;
   Ledger ledger_;

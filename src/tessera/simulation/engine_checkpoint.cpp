@@ -66,7 +66,7 @@ Checkpoint Engine::checkpoint() const {
   c.arrays["reference"] = flat(model_.system.d.X);
   c.arrays["position"] = flat(state_.x.data(), n);
   c.arrays["velocity"] = flat(state_.v.data(), n);
-  c.arrays["initial_position"] = flat(x0_.data(), n);
+  c.arrays["initial_position"] = flat(x0_.data(), x0_.size());
   c.arrays["time"] = {time_, dt_.before, dt_.after, step.dt, step.limit, model_.loads.motion.time()};
   c.arrays["energy"] = {books.accounts[0], books.accounts[1], books.accounts[2], initial_energy_, energy_scale_};
   c.arrays["initial_momentum"] = flat({initial_momentum_.linear, initial_momentum_.angular});
@@ -97,7 +97,7 @@ void Engine::restore(const Checkpoint& c) {
   const Field<Double4> x = vectors(c.array("position", 3 * n));
   std::copy(x.begin(), x.end(), state_.x.begin());
   state_.v = vectors(c.array("velocity", 3 * n));
-  x0_ = vectors(c.array("initial_position", 3 * n));
+  x0_ = vectors(c.array("initial_position", 3 * x0_.size()));
   time_ = time[0];
   dt_ = {time[1], time[2]};
   step_ = step[0];

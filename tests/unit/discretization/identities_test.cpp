@@ -101,7 +101,7 @@ TEST(Identities, EachFindsItsDamageInDelaunay) {
       {"rows", [](Discretization& d) { d.B_aa[5].x += 1e-3; }},
       {"columns", [](Discretization& d) { d.bonds.B_ba[7].y += 1e-3; }},
       {"columns", [](Discretization& d) { d.load.value[3].area *= 1.1; }},
-      {"duality", [](Discretization& d) { d.bonds.X_ab[7].z += 1e-3; }},
+      {"duality", [](Discretization& d) { d.X[7].z += 1e-3; }},
       {"antisymmetry", [&](Discretization& d) { d.bonds.B_ab[inner_bond(d)].x += 1e-3; }},
   };
   for (const Damage& damage : damages) {
