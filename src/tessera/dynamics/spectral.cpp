@@ -104,8 +104,8 @@ std::pair<double, double> largest_ritz(const std::vector<double>& alpha, const s
   return {eigen.eigenvalues()(n - 1), std::abs(eigen.eigenvectors()(n - 1, n - 1))};
 }
 
-constexpr int most_iterations = 60;
-constexpr double tolerance = 0.01;
+constexpr int most_iterations = 80;
+constexpr double tolerance = 0.002;
 
 }  // namespace
 
