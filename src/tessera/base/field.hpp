@@ -4,20 +4,35 @@
 #include <new>
 #include <vector>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 namespace tessera {
 
-/// Allocates on cache-line boundaries, as the vector loads of the sweeps need it.
+/// Allocates on cache-line boundaries, as the vector loads of the sweeps need it; large arrays on the boundaries of
+/// huge pages, which it asks for: the sweeps jump between neighbours, and small pages would cost an address translation
+/// each time.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
-  static constexpr std::align_val_t alignment{64};
+  static constexpr std::size_t cache_line = 64, huge_page = std::size_t{1} << 21U;
+  static constexpr std::align_val_t alignment(std::size_t n) {
+    return std::align_val_t{n * sizeof(T) >= 2 * huge_page ? huge_page : cache_line};
+  }
 
   CacheLineAllocator() = default;
   template <class U>
   explicit CacheLineAllocator(const CacheLineAllocator<U>&) {}
 
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
+  T* allocate(std::size_t n) {
+    void* p = ::operator new(n * sizeof(T), alignment(n));
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+    if (n * sizeof(T) >= 2 * huge_page) madvise(p, n * sizeof(T), MADV_HUGEPAGE);  // a wish; refusal costs nothing
+#endif
+    return static_cast<T*>(p);
+  }
+  void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 

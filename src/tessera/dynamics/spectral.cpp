@@ -106,6 +106,9 @@ std::pair<double, double> largest_ritz(const std::vector<double>& alpha, const s
 
 constexpr int most_iterations = 80;
 constexpr double tolerance = 0.002;
+// A small residual alone may belong to a lower neighbour of the largest value, so the value must also have settled.
+constexpr std::size_t settling_iterations = 6;
+constexpr double settled = 2e-4;
 
 }  // namespace
 
@@ -115,6 +118,7 @@ double SpectralEstimator::lanczos(LinearisedForces& K) {
   Vectors best = q;  // a sum of the basis, rich in the highest modes, for the next start
   std::vector<double> alpha, beta;
   double bound = 0.0;
+  std::vector<double> values;
   for (int i = 0; i < most_iterations; ++i) {
     Vectors w = K(q);
     alpha.push_back(inner(w, q));
@@ -123,7 +127,10 @@ double SpectralEstimator::lanczos(LinearisedForces& K) {
     const double b = std::sqrt(inner(w, w));
     const auto [value, last] = largest_ritz(alpha, beta);
     bound = value + b * last;
-    if (b * last <= tolerance * value || b <= 1e-12 * std::abs(value)) break;
+    values.push_back(value);
+    const bool steady = values.size() > settling_iterations &&
+                        value - values[values.size() - 1 - settling_iterations] <= settled * value;
+    if ((steady && b * last <= tolerance * value) || b <= 1e-12 * std::abs(value)) break;
     beta.push_back(b);
     scale(w, 1.0 / b);
     subtract(best, (i % 2 == 0) ? 1.0 : -1.0, w);

@@ -15,6 +15,21 @@
 
 namespace tessera {
 
+namespace {
+
+// How many bonds ahead the values of neighbours are fetched: their addresses jump, so the processor cannot foresee
+// them.
+constexpr Offset lookahead = 24;
+
+template <class T>
+inline void fetch(const T* values, Index b) {
+  const char* first = reinterpret_cast<const char*>(values + b);
+  __builtin_prefetch(first);
+  if constexpr (sizeof(T) > 64) __builtin_prefetch(first + sizeof(T) - 1);
+}
+
+}  // namespace
+
 StressSums& StressSums::operator+=(const StressSums& o) {
   internal += o.internal;
   contact += o.contact;
@@ -28,10 +43,14 @@ TESSERA_KERNEL void strain_sweep(const System& s, const Double4* x, Columns* F, 
   const Offset* offset = s.d.bonds.offset.data();
   const Index* neighbour = s.d.bonds.neighbour.data();
   const Vec3* B_ab = s.d.bonds.B_ab.data();
+  const Offset last = s.d.bonds.size() - 1;
   for (Index a = begin; a < end; ++a) {
     const Double4 x_a = x[a];
     Columns VF{};
-    for (Offset i = offset[a]; i < offset[a + 1]; ++i) add_outer(VF, x[neighbour[i]] - x_a, B_ab[i]);
+    for (Offset i = offset[a]; i < offset[a + 1]; ++i) {
+      fetch(x, neighbour[std::min(i + lookahead, last)]);
+      add_outer(VF, x[neighbour[i]] - x_a, B_ab[i]);
+    }
     F[a] = (1.0 / s.d.volume[static_cast<std::size_t>(a)]) * VF;
   }
 }
@@ -40,9 +59,13 @@ TESSERA_KERNEL void force_sweep(const Bonds& bonds, const Vec3* B_ba, const Vec3
                                 Index begin, Index end) {
   const Offset* offset = bonds.offset.data();
   const Index* neighbour = bonds.neighbour.data();
+  const Offset last = bonds.size() - 1;
   for (Index a = begin; a < end; ++a) {
     Double4 sum = apply(T[a], B_aa[a]);
-    for (Offset i = offset[a]; i < offset[a + 1]; ++i) sum += apply(T[neighbour[i]], B_ba[i]);
+    for (Offset i = offset[a]; i < offset[a + 1]; ++i) {
+      fetch(T, neighbour[std::min(i + lookahead, last)]);
+      sum += apply(T[neighbour[i]], B_ba[i]);
+    }
     f[a] -= sum;
   }
 }
@@ -76,9 +99,12 @@ inline BondSums sum_bonds(const System& s, const Double4* x, const Columns* F, d
   const Columns F_a = F[a];
   BondSums sums;
   Double4 energy{};
-  const Offset end = bonds.offset[static_cast<std::size_t>(a) + 1];
+  const Offset end = bonds.offset[static_cast<std::size_t>(a) + 1], last = bonds.size() - 1;
   for (Offset i = bonds.offset[static_cast<std::size_t>(a)]; i < end; ++i) {
-    const Index b = neighbour[i];
+    const Index b = neighbour[i], ahead = neighbour[std::min(i + lookahead, last)];
+    fetch(F, ahead);
+    fetch(x, ahead);
+    fetch(X_ref, ahead);
     const Vec3 X = X_ref[b] - X_a;
     const Double4 x_ab = x[b] - x_a;
     const Double4 u = x_ab - 0.5 * apply(F_a + F[b], X);      // [D 7]
