@@ -9,6 +9,7 @@ out=demo.out
 echo
 echo "The result is in $out/:"
 echo "  fields    paraview $out/fields.hdf.series"
+echo "  cells     paraview $out/cells.pvd"
 echo "  history   $out/history.csv   (energies, momenta, the force on the punch)"
 # The reaction of the probe "punch" in the last row; columns are found by their names in the header.
 awk -F, '

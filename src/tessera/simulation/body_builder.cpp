@@ -192,6 +192,8 @@ BuiltBody build_delaunay(const Case& c, const BodySpec& body, const std::optiona
   if (c.output.fields.cells) b.cells = mesh.tetrahedra;
   b.user_number = reorder(mesh);
   b.surface = delaunay_surface(body, mesh);
+  b.pieces.resize(b.surface.pieces.size());
+  b.sites_per_piece = 3;
 
   const std::vector<PointConstraint> particles =
       constrain_particles(b.surface, mesh.points, pointers(conditions), c.time.end);

@@ -20,7 +20,8 @@ struct BuiltBody {
   std::vector<Index> user_number;
   std::vector<PointConstraint> constraints;  // per boundary node (voronoi) or constrained particle (delaunay)
   std::vector<LoadedPiece> loaded;
-  std::vector<PointConstraint> pieces;  // what is prescribed on each piece (voronoi)
+  std::vector<PointConstraint> pieces;  // what is prescribed on each piece; nothing for delaunay, which holds particles
+  Index sites_per_piece = 1;            // load sites: a Voronoi face is one, a triangle three (its vertices)
   Identities identities;
   std::optional<Solid> solid;
   std::optional<CellGeometry> cells;

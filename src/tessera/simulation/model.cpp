@@ -1,5 +1,7 @@
 #include "tessera/simulation/model.hpp"
 
+#include <stdexcept>
+
 #include "tessera/simulation/body_builder.hpp"
 #include "tessera/simulation/overlap.hpp"
 
@@ -46,12 +48,10 @@ void collect_motion(LoadParts& parts, const BuiltBody& b, const InitialMotion& i
 }
 
 void collect_tractions(LoadParts& parts, const BuiltBody& b, Index first_site) {
-  // A Voronoi face is one site, a triangle three (its vertices).
-  const Index sites_per_piece = b.pieces.empty() ? 3 : 1;
   for (const LoadedPiece& l : b.loaded)
-    for (Index k = 0; k < sites_per_piece; ++k) {
-      const Mat3 free = b.pieces.empty() ? identity() : identity() - b.pieces[static_cast<std::size_t>(l.piece)].D;
-      parts.sites.push_back({first_site + sites_per_piece * l.piece + k, free, l.condition});
+    for (Index k = 0; k < b.sites_per_piece; ++k) {
+      const Mat3 free = identity() - b.pieces[static_cast<std::size_t>(l.piece)].D;
+      parts.sites.push_back({first_site + b.sites_per_piece * l.piece + k, free, l.condition});
     }
 }
 
@@ -88,9 +88,10 @@ BodyModel place_body(const BuiltBody& b, const Discretization& before) {
 }  // namespace
 
 const BodyModel& Model::body(const std::string& name) const {
+  if (name.empty()) return bodies.front();
   for (const BodyModel& b : bodies)
     if (b.name == name) return b;
-  return bodies.front();  // the reader has checked names; an empty one means the only body
+  throw std::logic_error("no body is called " + name);  // the reader has checked the names
 }
 
 Model build_model(const Case& c) {

@@ -36,6 +36,7 @@ struct Model {
   Index boundary_faces = 0;
   std::optional<CellGeometry> cells;  // for pictures, when the case asks for them; particles by user number
 
+  /// The body of that name; an empty name means the only body.
   const BodyModel& body(const std::string& name) const;
 };
 
