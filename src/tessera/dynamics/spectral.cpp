@@ -104,7 +104,7 @@ std::pair<double, double> largest_ritz(const std::vector<double>& alpha, const s
   return {eigen.eigenvalues()(n - 1), std::abs(eigen.eigenvectors()(n - 1, n - 1))};
 }
 
-constexpr int most_iterations = 80;
+constexpr int most_iterations = 80, power_iterations = 120;
 constexpr double tolerance = 0.002;
 // A small residual alone may belong to a lower neighbour of the largest value, so the value must also have settled.
 constexpr std::size_t settling_iterations = 6;
@@ -143,7 +143,7 @@ double SpectralEstimator::lanczos(LinearisedForces& K) {
 /// For forces without a potential, whose linearisation is not symmetric: the growth of repeated application.
 double SpectralEstimator::power_iteration(LinearisedForces& K) {
   double growth = 0.0;
-  for (int i = 0; i < 2 * most_iterations; ++i) {
+  for (int i = 0; i < power_iterations; ++i) {
     Vectors w = K(vector_);
     growth = std::sqrt(inner(w, w));
     scale(w, 1.0 / growth);
