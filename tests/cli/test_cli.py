@@ -7,6 +7,7 @@ import pathlib
 import subprocess
 import tempfile
 import unittest
+import unittest.mock
 
 PROGRAM = os.environ.get("TESSERA_PROGRAM", "tessera")
 DONE, USAGE, INPUT, GEOMETRY, RUN = 0, 2, 3, 4, 5
@@ -99,6 +100,14 @@ class Usage(CliTest):
     def test_threads(self):
         for threads in ("0", "-1", "many"):
             self.check_fails(USAGE, "--threads", arguments=["run", "case.toml", "-j", threads])
+
+    def test_threads_of_the_environment(self):
+        self.write(CASE)
+        with unittest.mock.patch.dict(os.environ, {"OMP_NUM_THREADS": "many"}):
+            result = self.call("run", "case.toml")
+        # A library that knows the variable too may complain on a line of its own.
+        self.assertEqual(result.returncode, USAGE, result.stderr)
+        self.assertIn('OMP_NUM_THREADS is "many"; expected a number', result.stderr)
 
     def test_force_or_resume(self):
         self.check_fails(USAGE, "--resume", "--force", arguments=["run", "case.toml", "--force", "--resume"])

@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "tessera/base/error.hpp"
 #include "tessera/parallel/pool.hpp"
 
 namespace tessera::parallel {
@@ -14,18 +15,23 @@ namespace {
 
 // Fewer blocks than this cost less than waking other threads.
 constexpr std::int64_t fewest_blocks = 8;
+constexpr long most_threads = 4096;
 
-/// OMP_NUM_THREADS, which batch systems set, or all processors.
+/// OMP_NUM_THREADS, which batch systems set (of a list the first), or all processors.
 int default_threads() {
-  if (const char* text = std::getenv("OMP_NUM_THREADS")) {
-    const int n = std::atoi(text);
-    if (n > 0) return n;
+  if (const char* text = std::getenv("OMP_NUM_THREADS"); text != nullptr && *text != '\0') {
+    char* end = nullptr;
+    const long n = std::strtol(text, &end, 10);
+    if (n < 1 || n > most_threads || (*end != '\0' && *end != ','))
+      throw UsageError("the environment variable OMP_NUM_THREADS is \"" + std::string(text) +
+                       "\"; expected a number from 1 to " + std::to_string(most_threads));
+    return static_cast<int>(n);
   }
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 struct Setting {
-  int threads = default_threads();
+  int threads = 0;  // not chosen yet
   std::unique_ptr<Pool> pool;
 };
 
@@ -46,10 +52,14 @@ struct Nested {
 
 }  // namespace
 
-int threads() { return setting().threads; }
+int threads() {
+  if (setting().threads == 0) setting().threads = default_threads();
+  return setting().threads;
+}
 
 void set_threads(int n) {
-  if (n <= 0 || n == setting().threads) return;
+  if (n <= 0) n = threads();
+  if (n == setting().threads) return;
   setting().pool.reset();
   setting().threads = n;
 }

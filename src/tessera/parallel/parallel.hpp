@@ -11,7 +11,8 @@ namespace tessera::parallel {
 /// Number of threads in use. Results never depend on it.
 int threads();
 
-/// Sets the number of threads; 0 keeps what the environment (OMP_NUM_THREADS) says.
+/// Sets the number of threads; 0 keeps what was set before or what the environment (OMP_NUM_THREADS) says. Throws
+/// UsageError when the environment decides and is no number of threads.
 void set_threads(int n);
 
 /// Items per block. Sums are taken block by block and then over the blocks in order, so their bits do not depend on the
