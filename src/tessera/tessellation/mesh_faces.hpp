@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "tessera/base/index.hpp"
+#include "tessera/geometry/triangle_surface.hpp"
 #include "tessera/base/vec3.hpp"
 
 namespace tessera {
 
-using Triangle = std::array<Index, 3>;
 using Tetrahedron = std::array<Index, 4>;
 
 /// Six times the signed volume [m3]: det(X1 - X0, X2 - X0, X3 - X0).
