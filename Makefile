@@ -1,5 +1,5 @@
 # Tessera in two commands: `make demo` and `make test`. A thin layer over the CMake presets.
-#   make build [PRESET=release]   configure and build (minimal: without the GPL component CGAL)
+#   make build [PRESET=release]   configure and build (minimal: without CGAL's GPL triangulation)
 #   make demo                     set up, build, run the punch example, say what to open
 #   make test                     set up, build, run all tests, then the same for the preset minimal
 #   make results                  write docs/results.md, the papers' numbers beside ours, from what the last `make test` measured

@@ -1,4 +1,4 @@
-# Libraries from the system. CGAL is optional because its triangulations are GPL.
+# Libraries from the system. Of CGAL the kernel (LGPL) is always used, the triangulations (GPL) with TESSERA_WITH_CGAL.
 find_package(Threads REQUIRED)
 find_package(muparser REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
@@ -9,16 +9,8 @@ find_package(fmt REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
 
-set(TESSERA_HAS_CGAL OFF)
-if(NOT TESSERA_WITH_CGAL STREQUAL "OFF")
-  find_package(CGAL CONFIG QUIET)
-  if(CGAL_FOUND)
-    set(TESSERA_HAS_CGAL ON)
-  elseif(TESSERA_WITH_CGAL STREQUAL "ON")
-    message(FATAL_ERROR "TESSERA_WITH_CGAL is ON, but CGAL was not found (Debian: libcgal-dev)")
-  endif()
-endif()
-message(STATUS "Delaunay tetrahedra by CGAL: ${TESSERA_HAS_CGAL}")
+find_package(CGAL CONFIG REQUIRED)
+message(STATUS "Delaunay tetrahedra by CGAL (GPL): ${TESSERA_WITH_CGAL}")
 
 if(TESSERA_BUILD_TESTS)
   find_package(GTest REQUIRED)

@@ -8,9 +8,8 @@ set -euo pipefail
 
 # The libraries of cmake/TesseraDependencies.cmake, and the tools that build and test.
 required=(g++ cmake ninja-build python3 libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev
-          libfmt-dev libmuparser-dev voro++-dev libhdf5-dev zlib1g-dev libgtest-dev)
-# CGAL (GPL) adds Delaunay tetrahedra of arbitrary points; without it lattices are split and meshes read.
-optional=(libcgal-dev)
+          libfmt-dev libmuparser-dev libcgal-dev voro++-dev libhdf5-dev zlib1g-dev libgtest-dev)
+optional=()  # what only some tests need
 list_only=no
 for argument in "$@"; do
   case "$argument" in

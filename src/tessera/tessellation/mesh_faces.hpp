@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "tessera/base/index.hpp"
-#include "tessera/geometry/triangle_surface.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/geometry/triangle_surface.hpp"
 
 namespace tessera {
 

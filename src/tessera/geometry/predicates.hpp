@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cmath>
+
+#include "tessera/base/vec3.hpp"
+
+namespace tessera {
+
+/// Signs of determinants of the given floating-point numbers, never wrong, whatever round-off does: a filter decides
+/// the plain cases, CGAL's exact kernel the others. All may be called by many threads at once. Coordinates must be
+/// finite and below 1e50 in size.
+namespace exact {
+int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
+}  // namespace exact
+
+namespace detail {
+/// Relative error bounds of the filters for round-off of 2^-53 (J. R. Shewchuk, Adaptive precision floating-point
+/// arithmetic, Discrete Comput. Geom. 18, 1997); below the smallest magnitude underflow could spoil them.
+inline constexpr double orient3d_bound = 7.78e-16;
+inline constexpr double orient2d_bound = 3.34e-16;
+inline constexpr double least_magnitude = 1e-200;
+}  // namespace detail
+
+/// The sign of det(b - a, c - a, d - a): +1 when d is on the side of the plane through a, b, c from which these run
+/// counter-clockwise, -1 when it is on the other side, 0 when all four are in one plane.
+///
+///        d        +1 for a, b, c as drawn, seen from d
+///      c .
+///     / \   .
+///    a - b
+inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 p = a - d, q = b - d, r = c - d;
+  const double qxry = q.x * r.y, rxqy = r.x * q.y, rxpy = r.x * p.y, pxry = p.x * r.y, pxqy = p.x * q.y,
+               qxpy = q.x * p.y;
+  const double minus_det = p.z * (qxry - rxqy) + q.z * (rxpy - pxry) + r.z * (pxqy - qxpy);
+  const double magnitude = std::abs(p.z) * (std::abs(qxry) + std::abs(rxqy)) +
+                           std::abs(q.z) * (std::abs(rxpy) + std::abs(pxry)) +
+                           std::abs(r.z) * (std::abs(pxqy) + std::abs(qxpy));
+  if (magnitude > detail::least_magnitude) {
+    if (minus_det > detail::orient3d_bound * magnitude) return -1;
+    if (-minus_det > detail::orient3d_bound * magnitude) return 1;
+  }
+  for (int axis = 0; axis < 3; ++axis)  // differences are zero exactly when the numbers are equal
+    if (p[axis] == 0 && q[axis] == 0 && r[axis] == 0) return 0;
+  return exact::orient3d(a, b, c, d);
+}
+
+/// The sign of component `axis` of (b - a) x (c - a): +1 when a, b, c run counter-clockwise, seen against that axis
+/// (from its positive end).
+inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const double left = (a[i] - c[i]) * (b[j] - c[j]), right = (a[j] - c[j]) * (b[i] - c[i]);
+  const double det = left - right, magnitude = std::abs(left) + std::abs(right);
+  if (magnitude > detail::least_magnitude) {
+    if (det > detail::orient2d_bound * magnitude) return 1;
+    if (-det > detail::orient2d_bound * magnitude) return -1;
+  }
+  if ((a[i] == c[i] && b[i] == c[i]) || (a[j] == c[j] && b[j] == c[j])) return 0;
+  return exact::orient2d(a, b, c, axis);
+}
+
+/// Are the three points on one line? A triangle for which this is so has no area.
+inline bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return orient2d(a, b, c, 0) == 0 && orient2d(a, b, c, 1) == 0 && orient2d(a, b, c, 2) == 0;
+}
+
+}  // namespace tessera
