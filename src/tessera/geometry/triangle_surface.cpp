@@ -1,19 +1,16 @@
 #include "tessera/geometry/triangle_surface.hpp"
 
-#include <algorithm>
-#include <limits>
-
 namespace tessera {
 
 Bounds bounds(const TriangleSurface& surface) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Bounds box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  for (const Triangle& triangle : surface.triangles)
-    for (const Index v : triangle)
-      for (int d = 0; d < 3; ++d) {
-        box.lower[d] = std::min(box.lower[d], surface.vertex(v)[d]);
-        box.upper[d] = std::max(box.upper[d], surface.vertex(v)[d]);
-      }
+  Bounds box;
+  for (Index t = 0; t < surface.size(); ++t) box.include(bounds(surface, t));
+  return box;
+}
+
+Bounds bounds(const TriangleSurface& surface, Index t) {
+  Bounds box;
+  for (const Vec3& corner : surface.corners(t)) box.include(corner);
   return box;
 }
 

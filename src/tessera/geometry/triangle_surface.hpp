@@ -6,6 +6,7 @@
 
 #include "tessera/base/index.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/geometry/bounds.hpp"
 
 namespace tessera {
 
@@ -31,13 +32,11 @@ struct TriangleSurface {
   }
 };
 
-/// An axis-parallel box [m], closed; an empty one has lower > upper.
-struct Bounds {
-  Vec3 lower, upper;
-};
-
 /// The box around all vertices that triangles use.
 Bounds bounds(const TriangleSurface& surface);
+
+/// The box around triangle t.
+Bounds bounds(const TriangleSurface& surface, Index t);
 
 /// Half the cross product of two edges of triangle t: its area times the outward normal [m2].
 Vec3 area_vector(const TriangleSurface& surface, Index t);
