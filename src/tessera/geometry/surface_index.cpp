@@ -24,16 +24,6 @@ int side_of_line(const Vec3& a, const Vec3& b, const Vec3& X) {
   return b.x > a.x ? 1 : -1;
 }
 
-/// +1 (-1) when the vertical ray upwards from X leaves (enters) through the triangle, whose corners run (counter-)
-/// clockwise seen from below.
-int crossing(const std::array<Vec3, 3>& corners, const Vec3& X) {
-  const auto& [a, b, c] = corners;
-  const int turn = orient2d(a, b, c, 2);
-  if (turn == 0) return 0;  // seen from above it is a line, beside which the ray passes
-  if (side_of_line(a, b, X) != turn || side_of_line(b, c, X) != turn || side_of_line(c, a, X) != turn) return 0;
-  return orient3d(a, b, c, X) * turn < 0 ? turn : 0;
-}
-
 bool is_on(const std::array<Vec3, 3>& corners, const Vec3& X) {
   const auto& [a, b, c] = corners;
   return orient3d(a, b, c, X) == 0 && in_triangle(X, a, b, c);
@@ -79,13 +69,12 @@ void SurfaceIndex::triangles_near(const Bounds& box, std::vector<Index>& found) 
   std::sort(found.begin(), found.end());
 }
 
-int SurfaceIndex::winding(const Vec3& X) const {
-  const auto is_above = [&](const Bounds& box) {
-    return box.lower.x <= X.x && X.x <= box.upper.x && box.lower.y <= X.y && X.y <= box.upper.y && X.z <= box.upper.z;
-  };
-  int turns = 0;
-  tree_.visit(is_above, [&](Index t) { turns += crossing(surface_.corners(t), X); });
-  return turns;
+int SurfaceIndex::crossing(const std::array<Vec3, 3>& corners, const Vec3& X) {
+  const auto& [a, b, c] = corners;
+  const int turn = orient2d(a, b, c, 2);
+  if (turn == 0) return 0;  // seen from above it is a line, beside which the ray passes
+  if (side_of_line(a, b, X) != turn || side_of_line(b, c, X) != turn || side_of_line(c, a, X) != turn) return 0;
+  return orient3d(a, b, c, X) * turn < 0 ? turn : 0;
 }
 
 Placement SurfaceIndex::placement(const Vec3& X) const {

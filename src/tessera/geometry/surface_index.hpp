@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "tessera/geometry/bounding_tree.hpp"
@@ -37,7 +38,19 @@ class SurfaceIndex {
 
   /// How often the surface winds around X: 1 in the solid, 0 outside, -1 inside a surface that is inside out. Exact
   /// for every X that is not on the surface; there it is that of a point infinitely near, above X.
-  int winding(const Vec3& X) const;
+  int winding(const Vec3& X) const {
+    return winding_of(X, [](Index) { return true; });
+  }
+  /// The same of those triangles t alone for which takes(t) holds; together they have to be closed.
+  template <class Takes>
+  int winding_of(const Vec3& X, Takes&& takes) const {
+    int turns = 0;
+    tree_.visit([&](const Bounds& box) { return is_above(box, X); },
+                [&](Index t) {
+                  if (takes(t)) turns += crossing(surface_.corners(t), X);
+                });
+    return turns;
+  }
   /// Where X is; exact, also on faces, edges and vertices.
   Placement placement(const Vec3& X) const;
   /// Is X inside or on the surface?
@@ -47,6 +60,13 @@ class SurfaceIndex {
   NearestPoint nearest(const Vec3& X) const;
 
  private:
+  /// Can a ray upwards from X meet the box?
+  static bool is_above(const Bounds& box, const Vec3& X) {
+    return box.lower.x <= X.x && X.x <= box.upper.x && box.lower.y <= X.y && X.y <= box.upper.y && X.z <= box.upper.z;
+  }
+  /// +1 (-1) when the ray upwards from X leaves (enters) the solid through a triangle, 0 when it misses it.
+  static int crossing(const std::array<Vec3, 3>& corners, const Vec3& X);
+
   const TriangleSurface& surface_;
   BoundingTree tree_;
 };

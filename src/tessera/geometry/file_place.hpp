@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace tessera {
+
+/// How a place in a file is counted, from one.
+enum class PlaceUnit { line, byte };
+
+/// "path:12: " or "path: byte 345: ".
+std::string locate(const std::string& path, PlaceUnit unit, std::int64_t place);
+
+/// The whole file. Throws GeometryError when it cannot be read or is empty.
+std::string read_whole_file(const std::string& path);
+
+}  // namespace tessera

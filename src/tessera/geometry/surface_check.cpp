@@ -1,0 +1,68 @@
+#include "tessera/geometry/surface_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr double kLargestCoordinate = 1e50;  // the exact predicates hold below
+
+void remove_unused_sides(TriangleSurface& surface) {
+  std::vector<Index> number(surface.side_names.size(), -1);
+  for (const Index side : surface.side) number[static_cast<std::size_t>(side)] = 0;
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < number.size(); ++s) {
+    if (number[s] < 0) continue;
+    number[s] = static_cast<Index>(names.size());
+    names.push_back(std::move(surface.side_names[s]));
+  }
+  surface.side_names = std::move(names);
+  for (Index& side : surface.side) side = number[static_cast<std::size_t>(side)];
+}
+
+void refuse_empty(const FileSurface& file) {
+  if (file.surface.triangles.empty())
+    throw GeometryError(
+        fmt::format("{}: holds no triangle that has an area: a surface that bounds a solid is expected", file.path));
+}
+
+}  // namespace
+
+void refuse_bad_vertices(const FileSurface& file) {
+  for (Index t = 0; t < file.surface.size(); ++t)
+    for (const Vec3& X : file.surface.corners(t))
+      for (int d = 0; d < 3; ++d)
+        if (!(std::abs(X[d]) < kLargestCoordinate))
+          throw GeometryError(fmt::format("{}: {} has the coordinate {}; finite numbers below {:g} are allowed",
+                                          file.path, describe_triangle(file, t), X[d], kLargestCoordinate));
+}
+
+CheckedSurface check_surface(FileSurface file) {
+  refuse_empty(file);
+  refuse_bad_vertices(file);
+  SurfaceRepairs repairs;
+  repairs.tolerance = weld_tolerance(file.surface);
+  weld_vertices(file.surface, repairs);
+  drop_needless_triangles(file, repairs);
+  refuse_empty(file);
+  split_at_vertices_on_edges(file, repairs);
+  weld_vertices(file.surface, repairs);
+  refuse_holes(file);
+  turn_contrary_triangles(file, repairs);
+  refuse_contrary_edges(file);
+  refuse_wrong_meetings(file);
+  const Shells shells = find_shells(file.surface);
+  refuse_wrong_nesting(file, shells);
+  remove_unused_sides(file.surface);
+
+  CheckedSurface checked{std::move(file.surface), repairs, 0, 0};
+  for (const double v : shells.volume) ++(v > 0 ? checked.shells : checked.cavities);
+  return checked;
+}
+
+}  // namespace tessera
