@@ -2,9 +2,16 @@
 
 #include <vector>
 
-#include "tessera/tessellation/mesh_file.hpp"
+#include "tessera/geometry/mesh_file.hpp"
+#include "tessera/tessellation/mesh_faces.hpp"
+#include "tessera/tessellation/tetrahedra.hpp"
 
 namespace tessera {
+
+/// The mesh that a file describes, checked: finite points, each used and none doubled; tetrahedra neither inverted nor
+/// flat, each face between at most two of them and each edge of the boundary between two boundary triangles; every
+/// named triangle is a face. Throws GeometryError with file, place, the file's own numbers and the cure.
+TetrahedralMesh checked_mesh(const FileMesh& file);
 
 /// Throws GeometryError for points that are not finite, belong to no tetrahedron, or lie within 1e-9 of the mesh's
 /// size of another.

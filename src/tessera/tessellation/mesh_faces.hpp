@@ -6,11 +6,9 @@
 
 #include "tessera/base/index.hpp"
 #include "tessera/base/vec3.hpp"
-#include "tessera/geometry/triangle_surface.hpp"
+#include "tessera/geometry/mesh_file.hpp"
 
 namespace tessera {
-
-using Tetrahedron = std::array<Index, 4>;
 
 /// Six times the signed volume [m3]: det(X1 - X0, X2 - X0, X3 - X0).
 double six_volume(const Tetrahedron& t, std::span<const Vec3> points);

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "tessera/base/error.hpp"
-#include "tessera/tessellation/gmsh.hpp"
+#include "tessera/geometry/gmsh.hpp"
 #include "tessera/tessellation/mesh_check.hpp"
 #include "tessera/tessellation/vtu.hpp"
 

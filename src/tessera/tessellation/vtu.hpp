@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "tessera/tessellation/mesh_file.hpp"
+#include "tessera/geometry/mesh_file.hpp"
 
 namespace tessera {
 

@@ -3,7 +3,8 @@
 #include <limits>
 
 #include "mesh_helpers.hpp"
-#include "tessera/tessellation/mesh_file.hpp"
+#include "tessera/geometry/mesh_file.hpp"
+#include "tessera/tessellation/mesh_check.hpp"
 
 namespace tessera::test {
 namespace {

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "mesh_helpers.hpp"
-#include "tessera/tessellation/gmsh.hpp"
-#include "tessera/tessellation/mesh_file.hpp"
+#include "tessera/geometry/gmsh.hpp"
+#include "tessera/geometry/mesh_file.hpp"
+#include "tessera/tessellation/mesh_check.hpp"
 #include "tessera/tessellation/vtu.hpp"
 
 namespace tessera::test {

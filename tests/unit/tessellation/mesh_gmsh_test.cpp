@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "mesh_helpers.hpp"
-#include "tessera/tessellation/gmsh.hpp"
+#include "tessera/geometry/gmsh.hpp"
 
 namespace tessera::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tessera/tessellation/gmsh_cursor.hpp"
+#include "tessera/geometry/gmsh_cursor.hpp"
 
 #include <fmt/format.h>
 

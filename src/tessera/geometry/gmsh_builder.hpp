@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tessera/tessellation/gmsh_cursor.hpp"
-#include "tessera/tessellation/mesh_file.hpp"
+#include "tessera/geometry/gmsh_cursor.hpp"
+#include "tessera/geometry/mesh_file.hpp"
 
 namespace tessera {
 

@@ -1,7 +1,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "tessera/tessellation/gmsh_builder.hpp"
+#include "tessera/geometry/gmsh_builder.hpp"
 
 namespace tessera {
 namespace {

@@ -1,8 +1,8 @@
-#include "tessera/tessellation/gmsh.hpp"
+#include "tessera/geometry/gmsh.hpp"
 
 #include <fmt/format.h>
 
-#include "tessera/tessellation/gmsh_builder.hpp"
+#include "tessera/geometry/gmsh_builder.hpp"
 
 namespace tessera {
 namespace {

@@ -1,4 +1,4 @@
-#include "tessera/tessellation/gmsh_builder.hpp"
+#include "tessera/geometry/gmsh_builder.hpp"
 
 #include <fmt/format.h>
 
@@ -45,6 +45,7 @@ void GmshBuilder::add_element(const GmshElementKind& kind, std::int64_t number, 
   } else if (kind.use == GmshElementUse::triangle) {
     Triangle t{};
     for (std::size_t i = 0; i < 3; ++i) t[i] = index_of(nodes[i], number);
+    if (physical.empty()) mesh_.nameless_triangles.push_back({t, number, place});
     for (const int surface : physical) mesh_.triangles.push_back({{t, number, place}, surface});
   }
 }
