@@ -12,6 +12,7 @@ namespace tessera {
 namespace exact {
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
+int side_of_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e);
 }  // namespace exact
 
 namespace detail {
@@ -19,6 +20,7 @@ namespace detail {
 /// arithmetic, Discrete Comput. Geom. 18, 1997); below the smallest magnitude underflow could spoil them.
 inline constexpr double orient3d_bound = 7.78e-16;
 inline constexpr double orient2d_bound = 3.34e-16;
+inline constexpr double sphere_bound = 1.78e-15;
 inline constexpr double least_magnitude = 1e-200;
 }  // namespace detail
 
@@ -64,5 +66,35 @@ inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
 inline bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
   return orient2d(a, b, c, 0) == 0 && orient2d(a, b, c, 1) == 0 && orient2d(a, b, c, 2) == 0;
 }
+
+/// Where e is with respect to the sphere through a, b, c, d: +1 inside, -1 outside, 0 on it, provided that
+/// orient3d(a, b, c, d) is +1; the other way round when it is -1.
+inline int side_of_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
+  const Vec3 p = a - e, q = b - e, r = c - e, s = d - e;
+  const double P = norm2(p), Q = norm2(q), R = norm2(r), S = norm2(s);
+  const auto minor = [](const Vec3& u, const Vec3& v) { return u.x * v.y - v.x * u.y; };
+  const auto size = [](const Vec3& u, const Vec3& v) { return std::abs(u.x * v.y) + std::abs(v.x * u.y); };
+  const double pq = minor(p, q), qr = minor(q, r), rs = minor(r, s), sp = minor(s, p), pr = minor(p, r),
+               qs = minor(q, s);
+  const double det = (S * (p.z * qr - q.z * pr + r.z * pq) - R * (s.z * pq + p.z * qs + q.z * sp)) +
+                     (Q * (r.z * sp + s.z * pr + p.z * rs) - P * (q.z * rs - r.z * qs + s.z * qr));
+  const double PQ = size(p, q), QR = size(q, r), RS = size(r, s), SP = size(s, p), PR = size(p, r), QS = size(q, s);
+  const double px = std::abs(p.z), qx = std::abs(q.z), rx = std::abs(r.z), sx = std::abs(s.z);
+  const double magnitude = S * (px * QR + qx * PR + rx * PQ) + R * (sx * PQ + px * QS + qx * SP) +
+                           Q * (rx * SP + sx * PR + px * RS) + P * (qx * RS + rx * QS + sx * QR);
+  if (magnitude > detail::least_magnitude) {
+    if (det > detail::sphere_bound * magnitude) return -1;
+    if (-det > detail::sphere_bound * magnitude) return 1;
+  }
+  return exact::side_of_sphere(a, b, c, d, e);
+}
+
+/// The sign of component `axis` of (b - a) x (d - c). Slow: for ties.
+int cross_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, int axis);
+
+/// The part of the way from p to q at which the plane through a, b, c is crossed, to the last digit: exact for all but
+/// the result, so that it is between 0 and 1 when p and q are on different sides. These must not be equally high above
+/// the plane. Slow: for segments that are nearly parallel to the plane.
+double crossing_fraction(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, const Vec3& q);
 
 }  // namespace tessera

@@ -77,12 +77,12 @@ int SurfaceIndex::crossing(const std::array<Vec3, 3>& corners, const Vec3& X) {
   return orient3d(a, b, c, X) * turn < 0 ? turn : 0;
 }
 
-Placement SurfaceIndex::placement(const Vec3& X) const {
+Location SurfaceIndex::location(const Vec3& X) const {
   bool on_surface = false;
   tree_.visit([&](const Bounds& box) { return !on_surface && box.contains(X); },
               [&](Index t) { on_surface = on_surface || is_on(surface_.corners(t), X); });
-  if (on_surface) return Placement::on_surface;
-  return winding(X) != 0 ? Placement::inside : Placement::outside;
+  if (on_surface) return Location::on_surface;
+  return winding(X) != 0 ? Location::inside : Location::outside;
 }
 
 NearestPoint SurfaceIndex::nearest(const Vec3& X) const {

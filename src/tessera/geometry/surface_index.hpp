@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-enum class Placement { outside, on_surface, inside };
+enum class Location { outside, on_surface, inside };
 
 /// The point of a surface that is nearest to another point.
 struct NearestPoint {
@@ -52,9 +52,9 @@ class SurfaceIndex {
     return turns;
   }
   /// Where X is; exact, also on faces, edges and vertices.
-  Placement placement(const Vec3& X) const;
+  Location location(const Vec3& X) const;
   /// Is X inside or on the surface?
-  bool contains(const Vec3& X) const { return placement(X) != Placement::outside; }
+  bool contains(const Vec3& X) const { return location(X) != Location::outside; }
 
   /// The nearest point of the surface; its triangle is one of those that are nearest.
   NearestPoint nearest(const Vec3& X) const;

@@ -106,6 +106,63 @@ TEST(Predicates, HoldWhereDifferencesRoundAndProductsUnderflow) {
   EXPECT_EQ(orient3d({0, 0, 0}, {tiny, tiny, 0}, {0, tiny, tiny}, {tiny, 0, tiny}), 1);
 }
 
+/// Points of a box's corners are on one sphere; moved by one unit along the diagonal, they are not.
+TEST(Predicates, SphereAgreesWithIntegersForCornersOfBoxes) {
+  Points points(3);
+  const auto norm2 = [](const Point& p) { return Integer(p[0]) * p[0] + Integer(p[1]) * p[1] + Integer(p[2]) * p[2]; };
+  std::array<int, 3> found{};
+  for (int i = 0; i < 50000; ++i) {
+    const Point low = points.anywhere(1LL << 24), size = points.anywhere(1LL << 20);
+    if (size[0] == 0 || size[1] == 0 || size[2] == 0) continue;
+    const auto corner = [&](int x, int y, int z) {
+      return Point{low[0] + x * size[0], low[1] + y * size[1], low[2] + z * size[2]};
+    };
+    const Point a = corner(0, 0, 0), b = corner(1, 0, 0), c = corner(0, 1, 0), d = corner(0, 0, 1);
+    Point e = corner(i % 2, 1, 1);
+    e[0] += i % 3 - 1;
+    const Point twice_center{2 * low[0] + size[0], 2 * low[1] + size[1], 2 * low[2] + size[2]};
+    const auto radius2 = [&](const Point& p) {
+      return norm2({2 * p[0] - twice_center[0], 2 * p[1] - twice_center[1], 2 * p[2] - twice_center[2]});
+    };
+    const int expected = sign(radius2(a) - radius2(e)) * witness3d(a, b, c, d);
+    ++found[static_cast<std::size_t>(expected + 1)];
+    for (const double scale : {1.0, 0.1 * 0x1p-20}) {
+      if (scale != 1.0 && expected == 0) continue;  // rounded corners are on no sphere
+      const auto at = [&](const Point& p) { return real(p, scale); };
+      ASSERT_EQ(exact::side_of_sphere(at(a), at(b), at(c), at(d), at(e)), expected) << i;
+      ASSERT_EQ(side_of_sphere(at(a), at(b), at(c), at(d), at(e)), expected) << i;
+    }
+  }
+  for (const int n : found) EXPECT_GT(n, 5000);
+}
+
+TEST(Predicates, CrossSignSeesParallelLines) {
+  Points points(4);
+  for (int i = 0; i < 10000; ++i) {
+    const Point a = points.anywhere(1LL << 40), c = points.anywhere(1LL << 40), step = points.anywhere(1LL << 10);
+    const auto along = [&](const Point& p, std::int64_t n) {
+      return Point{p[0] + n * step[0], p[1] + n * step[1], p[2] + n * step[2]};
+    };
+    Point d = along(c, -5);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(cross_sign(real(a, 1), real(along(a, 3), 1), real(c, 1), real(d, 1), axis), 0);
+    ++d[1];  // (b - a) x (d - c) = 3 step x (0, 1, 0)
+    EXPECT_EQ(cross_sign(real(a, 1), real(along(a, 3), 1), real(c, 1), real(d, 1), 2), sign(step[0]));
+    EXPECT_EQ(cross_sign(real(a, 1), real(along(a, 3), 1), real(c, 1), real(d, 1), 0), sign(-step[2]));
+  }
+}
+
+TEST(Predicates, CrossingFractionIsAccurateForNearlyParallelSegments) {
+  const Vec3 a{0, 0, 1}, b{1, 0, 1}, c{0, 1, 1};
+  EXPECT_DOUBLE_EQ(crossing_fraction(a, b, c, {0.2, 0.2, 0}, {0.2, 0.2, 4}), 0.25);
+  EXPECT_DOUBLE_EQ(crossing_fraction(a, c, b, {0.2, 0.2, 0}, {0.2, 0.2, 4}), 0.25);
+  // One unit in the last place below the plane at one end, three above it at the other.
+  const double above = 1.0 + 3 * 0x1p-52, below = 1.0 - 0x1p-52;
+  EXPECT_DOUBLE_EQ(crossing_fraction(a, b, c, {-50, 0.3, below}, {70, 0.1, above}), 0.25);
+  EXPECT_EQ(crossing_fraction(a, b, c, {-50, 0.3, 1.0}, {70, 0.1, above}), 0.0);
+  EXPECT_EQ(crossing_fraction(a, b, c, {-50, 0.3, below}, {70, 0.1, 1.0}), 1.0);
+}
+
 TEST(Predicates, ManyThreadsMayAskAtOnce) {
   const int before = parallel::threads();
   parallel::set_threads(4);

@@ -64,7 +64,7 @@ TEST(SurfaceIndex, RaysThroughEdgesAndVerticesCountOnce) {
     for (int i = 0; i < 3000; ++i) {
       const Vec3& over = surface.vertices[any(random)];
       const Vec3 X{over.x, over.y, surface.vertices[any(random)].z};
-      if (index.placement(X) == Placement::on_surface) continue;
+      if (index.location(X) == Location::on_surface) continue;
       ++decided;
       ASSERT_EQ(index.winding(X), static_cast<int>(std::lround(solid_angle_winding(surface, X))));
     }
@@ -77,11 +77,11 @@ TEST(SurfaceIndex, KnowsWhatIsExactlyOnTheSurface) {
   const SurfaceIndex index(box);
   for (const Vec3& X : {Vec3{0, 0.3, 0.3}, Vec3{3, 0.1, 0.9}, Vec3{1, 0, 0.5}, Vec3{1, 1, 0.5}, Vec3{1, 0.5, 0},
                         Vec3{2, 0.25, 1}, Vec3{0, 0, 0}, Vec3{1.5, 1, 1}, Vec3{0, 0.5, 0.5}})
-    EXPECT_EQ(index.placement(X), Placement::on_surface) << X.x << ' ' << X.y << ' ' << X.z;
-  EXPECT_EQ(index.placement({std::nextafter(3.0, 4), 0.5, 0.5}), Placement::outside);
-  EXPECT_EQ(index.placement({std::nextafter(3.0, 0), 0.5, 0.5}), Placement::inside);
-  EXPECT_EQ(index.placement({1.5, 0.5, std::nextafter(1.0, 2)}), Placement::outside);
-  EXPECT_EQ(index.placement({1.5, 0.5, std::nextafter(1.0, 0)}), Placement::inside);
+    EXPECT_EQ(index.location(X), Location::on_surface) << X.x << ' ' << X.y << ' ' << X.z;
+  EXPECT_EQ(index.location({std::nextafter(3.0, 4), 0.5, 0.5}), Location::outside);
+  EXPECT_EQ(index.location({std::nextafter(3.0, 0), 0.5, 0.5}), Location::inside);
+  EXPECT_EQ(index.location({1.5, 0.5, std::nextafter(1.0, 2)}), Location::outside);
+  EXPECT_EQ(index.location({1.5, 0.5, std::nextafter(1.0, 0)}), Location::inside);
 }
 
 TEST(SurfaceIndex, NearestPointIsThatOfAllTriangles) {
@@ -143,7 +143,7 @@ TEST(SurfaceIndex, TrianglesNearABoxAreThoseWhoseBoxesMeetIt) {
 TEST(SurfaceIndex, OfNothingAnswersNothing) {
   const TriangleSurface nothing;
   const SurfaceIndex index(nothing);
-  EXPECT_EQ(index.placement({0, 0, 0}), Placement::outside);
+  EXPECT_EQ(index.location({0, 0, 0}), Location::outside);
   EXPECT_EQ(index.nearest({0, 0, 0}).triangle, -1);
 }
 
