@@ -6,24 +6,12 @@
 #include <cmath>
 
 #include "tessera/base/error.hpp"
+#include "tessera/geometry/surface_sides.hpp"
 
 namespace tessera {
 namespace {
 
 constexpr double kLargestCoordinate = 1e50;  // the exact predicates hold below
-
-void remove_unused_sides(TriangleSurface& surface) {
-  std::vector<Index> number(surface.side_names.size(), -1);
-  for (const Index side : surface.side) number[static_cast<std::size_t>(side)] = 0;
-  std::vector<std::string> names;
-  for (std::size_t s = 0; s < number.size(); ++s) {
-    if (number[s] < 0) continue;
-    number[s] = static_cast<Index>(names.size());
-    names.push_back(std::move(surface.side_names[s]));
-  }
-  surface.side_names = std::move(names);
-  for (Index& side : surface.side) side = number[static_cast<std::size_t>(side)];
-}
 
 void refuse_empty(const FileSurface& file) {
   if (file.surface.triangles.empty())
