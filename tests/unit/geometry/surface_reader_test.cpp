@@ -11,6 +11,7 @@
 #include "shapes.hpp"
 #include "support/surfaces.hpp"
 #include "tessera/geometry/surface_check.hpp"
+#include "tessera/geometry/surface_load.hpp"
 
 namespace tessera {
 namespace {
@@ -160,6 +161,17 @@ TEST(SurfaceReader, PhysicalSurfacesOfGmshBecomeSides) {
   const CheckedSurface nameless = check_surface(read_surface(data_path("tetrahedron_41.msh")));
   EXPECT_EQ(nameless.surface.side_names, std::vector<std::string>{"surface"});
   EXPECT_DOUBLE_EQ(volume(nameless.surface), 1.0 / 6.0);
+}
+
+TEST(LoadSurface, GivesMetresAndSaysWhatWasMended) {
+  const CheckedSurface box = load_surface(data_path("box.obj"), 1e-3);
+  EXPECT_NEAR(volume(box.surface), 2e-9, 1e-23);
+  EXPECT_EQ(bounds(box.surface).upper, (Vec3{2e-3, 1e-3, 1e-3}));
+  EXPECT_EQ(describe(box), "12 triangles, 8 vertices, 1 shell");
+  CheckedSurface mended = box;
+  mended.repairs.moved_vertices = 2;
+  mended.repairs.turned_triangles = 1;
+  EXPECT_EQ(describe(mended), "12 triangles, 8 vertices, 1 shell; mended: 2 vertices welded, 1 triangle turned round");
 }
 
 TEST(CutEars, DividesCombsAndSpirals) {
