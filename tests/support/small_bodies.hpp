@@ -121,9 +121,12 @@ inline Material rubber(double young = 1e6, double poisson = 0.3, double density 
   return m;
 }
 
-inline System system_of(Discretization d, const Material& m) {
+/// Tiles so small that even small bodies have several, with rims.
+constexpr Index small_tiles = 11;
+
+inline System system_of(Discretization d, const Material& m, Index particles_per_tile = small_tiles) {
   const std::vector<Index> material(d.X.size(), 0);
-  return make_system(std::move(d), {m}, material);
+  return make_system(std::move(d), {m}, material, particles_per_tile);
 }
 
 inline std::vector<Vec3> walls_of(const System& s, const std::function<Vec3(const Vec3&)>& motion) {

@@ -4,31 +4,42 @@ namespace tessera {
 
 namespace {
 
-constexpr double index = sizeof(Index), offset = sizeof(Offset), number = sizeof(double), vec3 = sizeof(Vec3);
-constexpr double vector = sizeof(Double4), tensor = sizeof(Columns);
+constexpr double local = sizeof(std::uint16_t), index = sizeof(Index), offset = sizeof(Offset), number = sizeof(double);
+constexpr double vec3 = sizeof(Vec3), vector = sizeof(Double4), tensor = sizeof(Columns);
+constexpr double incoming = sizeof(Tiles::Incoming);
 
-double bonds_per_particle(const System& s) {
-  return static_cast<double>(s.d.bonds.size()) / static_cast<double>(s.particles());
-}
+/// Sizes of the arrays relative to the number of particles.
+struct PerParticle {
+  explicit PerParticle(const System& s)
+      : bonds(static_cast<double>(s.tiles.bonds) / static_cast<double>(s.particles())),
+        lanes(static_cast<double>(s.tiles.neighbour.size()) / static_cast<double>(s.particles())),
+        rim(static_cast<double>(s.tiles.rim.size()) / static_cast<double>(s.particles())) {}
+
+  double bonds, lanes, rim;
+};
 
 }  // namespace
 
 double bytes_per_particle_step(const System& s) {
-  const double bonds = bonds_per_particle(s);
-  const double strain = offset + vector + number + 2.0 * tensor + bonds * (index + vec3);
-  const double stress =
-      offset + vector + tensor + number + 2.0 * tensor + 2.0 * vector + vec3 + bonds * (index + number);
-  const double force = offset + tensor + vec3 + 2.0 * vector + bonds * (index + vec3);
+  const PerParticle n(s);
+  const double strain =
+      vector + local + number + n.rim * (index + vector) + n.lanes * local + n.bonds * vec3 + 2.0 * tensor;
+  const double contact_and_stress = (1.0 + n.rim) * (vector + vec3 + tensor) + n.rim * index + local +
+                                    n.lanes * (local + number) + number + 2.0 * vector;
+  const double force = vec3 + n.bonds * (vec3 + incoming) + (1.0 + n.rim) * local + n.rim * 2.0 * vector;
+  const double rims = offset + n.rim * (index + vector) + 2.0 * vector;
   const double kick_and_drift = number + vector + 2.0 * vector + 2.0 * vector;
-  return strain + stress + force + kick_and_drift;
+  return strain + contact_and_stress + force + rims + kick_and_drift;
 }
 
 double bytes_per_particle(const System& s) {
-  const double bonds = bonds_per_particle(s) * (index + 2.0 * vec3 + number) + offset;
+  const PerParticle n(s);
+  const double bonds = n.bonds * (vec3 + incoming) + n.lanes * (local + number) + local;
+  const double rims = n.rim * (2.0 * index + local + vector) + local + offset;
   const double constants = vec3 /* X */ + number /* V */ + vec3 /* B_aa */ + number /* m */;
-  const double state = 2.0 * vector /* x, v */ + vector /* f */ + 2.0 * tensor /* F, T */;
+  const double state = 2.0 * vector /* x, v */ + vector /* f */ + tensor /* F */;
   const double viscous = s.viscosity.empty() ? 0.0 : 2.0 * tensor + sizeof(ViscosityLaw);
-  return bonds + constants + state + viscous;
+  return bonds + rims + constants + state + viscous;
 }
 
 }  // namespace tessera

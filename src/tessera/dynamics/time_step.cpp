@@ -30,14 +30,12 @@ double divide_evenly(double rest, double dt) { return rest / std::ceil(rest / dt
 }  // namespace
 
 double shortest_travel_time(const System& s) {
-  const std::vector<double> h = shortest_bonds(s.d);
   double shortest = std::numeric_limits<double>::infinity(), fastest = 0.0;
   for (const MaterialRange& r : s.ranges) {
     fastest = std::max(fastest, material(s, r).wave_speed());
-    for (Index a = r.begin; a < r.end; ++a)
-      shortest = std::min(shortest, h[static_cast<std::size_t>(a)] / material(s, r).wave_speed());
+    shortest = std::min(shortest, r.shortest_bond / material(s, r).wave_speed());
   }
-  return std::min(shortest, shortest_length(s.d) / fastest);
+  return std::min(shortest, s.shortest_length / fastest);
 }
 
 double stable_step(const System& s, double omega) {
@@ -73,7 +71,7 @@ StepControl::StepControl(const TimeSpec& spec, const System& system, const State
 }
 
 void StepControl::estimate(std::int64_t step, const State& state, std::span<const Vec3> walls) {
-  const double omega = estimator_.largest_frequency(state, walls, shortest_length(system_.d));
+  const double omega = estimator_.largest_frequency(state, walls, system_.shortest_length);
   const double limit = omega > 0.0 ? stable_step(system_, omega) : std::numeric_limits<double>::infinity();
   if (limit_ > 0.0) {
     const bool changed = std::abs(limit - limit_) > watchful_change * limit_;

@@ -8,12 +8,19 @@ namespace tessera {
 
 namespace {
 
-/// Calls body(f) for every boundary node, owner by owner.
+/// Calls body(f) for every boundary node of owner number `k`.
 template <class Body>
-void for_each_owner(const System& s, Body&& body) {
+void for_each_node(const System& s, Index k, Body&& body) {
+  const auto i = static_cast<std::size_t>(k);
+  for (Index f = s.first_node[i]; f < s.first_node[i + 1]; ++f) body(f);
+}
+
+/// Calls body(f, k) for every boundary node, owner by owner; k is the owner's number.
+template <class Body>
+void for_each_owned(const System& s, Body&& body) {
   parallel::for_each(static_cast<std::int64_t>(s.owners.size()), [&](std::int64_t i) {
-    const auto k = static_cast<std::size_t>(i);
-    for (Index f = s.first_node[k]; f < s.first_node[k + 1]; ++f) body(f);
+    const auto k = static_cast<Index>(i);
+    for_each_node(s, k, [&](Index f) { body(f, k); });
   });
 }
 
@@ -24,7 +31,7 @@ const NodeMechanics& mechanics(const System& s, Index f) { return s.nodes[static
 
 void fill_boundary_nodes(const System& s, std::span<const Vec3> walls, Double4* x) {
   // Within an owner fully prescribed nodes come first, so nodes that follow them see their new position.
-  for_each_owner(s, [&](Index f) {
+  for_each_owned(s, [&](Index f, Index) {
     Double4 constrained{}, free{};
     for (const ClosureTerm& t : s.d.closure.row(f)) {
       constrained += t.constrained * x[t.node];
@@ -38,34 +45,32 @@ void fill_boundary_nodes(const System& s, std::span<const Vec3> walls, Double4* 
 }
 
 void add_boundary_strain(const System& s, const Double4* x, Columns* F) {
-  for_each_owner(s, [&](Index f) {
+  for_each_owned(s, [&](Index f, Index) {
     const BoundaryNode& n = node(s, f);
     const double inverse_volume = 1.0 / s.d.volume[static_cast<std::size_t>(n.owner)];
     add_outer(F[n.owner], x[s.particles() + f] - x[n.owner], inverse_volume * n.B_af);
   });
 }
 
-double add_boundary_bonds(const System& s, const Double4* x, const Columns* F, Columns* T, Double4* f, Double4* R) {
-  for_each_owner(s, [&](Index g) {
+double add_boundary_bonds(const System& s, Index k, const Double4* x, const Columns& F, Columns& T, Double4& f,
+                          Double4* R) {
+  double energy = 0.0;
+  for_each_node(s, k, [&](Index g) {
     const BoundaryNode& n = node(s, g);
     const NodeMechanics& m = mechanics(s, g);
-    const Vec3 u = to_vec3(x[s.particles() + g] - x[n.owner] - apply(F[n.owner], m.X_af));
-    const Double4 force = to_kernel(m.stiffness * u);
-    add_outer(T[n.owner], force, (-1.0 / s.d.volume[static_cast<std::size_t>(n.owner)]) * m.X_af);
-    f[n.owner] += force;
+    const Vec3 u = to_vec3(x[s.particles() + g] - x[n.owner] - apply(F, m.X_af));
+    const Vec3 pull = m.stiffness * u;
+    const Double4 force = to_kernel(pull);
+    add_outer(T, force, (-1.0 / s.d.volume[static_cast<std::size_t>(n.owner)]) * m.X_af);
+    f += force;
     R[g] = -force;
+    energy += 0.5 * dot(u, pull);
   });
-  return parallel::sum<double>(s.boundary_nodes(), [&](std::int64_t i) {
-    const auto g = static_cast<Index>(i);
-    const NodeMechanics& m = mechanics(s, g);
-    const Index owner = node(s, g).owner;
-    const Vec3 u = to_vec3(x[s.particles() + g] - x[owner] - apply(F[owner], m.X_af));
-    return 0.5 * dot(u, m.stiffness * u);
-  });
+  return energy;
 }
 
-void add_node_forces(const System& s, const Columns* T, Double4* R) {
-  for_each_owner(s, [&](Index f) { R[f] -= apply(T[node(s, f).owner], node(s, f).B_af); });
+void add_node_forces(const System& s, Index k, const Columns& T, Double4* R) {
+  for_each_node(s, k, [&](Index f) { R[f] -= apply(T, node(s, f).B_af); });
 }
 
 void drain_boundary_nodes(const System& s, Double4* R, Double4* f, std::span<Vec3> reactions) {
@@ -78,26 +83,26 @@ void drain_boundary_nodes(const System& s, Double4* R, Double4* f, std::span<Vec
     }
     return to_kernel(sum);
   };
-  for_each_owner(s, [&](Index g) { R[g] += received(s.returned_to_node.row(g)); });
+  for_each_owned(s, [&](Index g, Index) { R[g] += received(s.returned_to_node.row(g)); });
   parallel::for_each(static_cast<std::int64_t>(s.receivers.size()), [&](std::int64_t i) {
     f[s.receivers[static_cast<std::size_t>(i)]] += received(s.returned.row(static_cast<Index>(i)));
   });
-  for_each_owner(s, [&](Index g) {
+  for_each_owned(s, [&](Index g, Index) {
     reactions[static_cast<std::size_t>(g)] += node(s, g).wall_share * (node(s, g).D * to_vec3(R[g]));
   });
 }
 
 void drain_with_held_branches(const System& s, const Columns* P, Double4* R, Double4* f) {
-  for_each_owner(s, [&](Index g) { R[g] = -apply(P[node(s, g).owner], node(s, g).B_af); });
+  for_each_owned(s, [&](Index g, Index k) { R[g] = -apply(P[k], node(s, g).B_af); });
   std::vector<Vec3> to_walls(s.nodes.size());
   drain_boundary_nodes(s, R, f, to_walls);
-  for_each_owner(s, [&](Index g) { f[node(s, g).owner] += to_kernel(to_walls[static_cast<std::size_t>(g)]); });
+  for_each_owned(s, [&](Index g, Index) { f[node(s, g).owner] += to_kernel(to_walls[static_cast<std::size_t>(g)]); });
 }
 
 void add_direct_reactions(const System& s, const Columns* P, Double4* f, std::span<Vec3> reactions) {
-  for_each_owner(s, [&](Index g) {
+  for_each_owned(s, [&](Index g, Index k) {
     const BoundaryNode& n = node(s, g);
-    const Vec3 reaction = n.D * to_vec3(apply(P[n.owner], n.area));
+    const Vec3 reaction = n.D * to_vec3(apply(P[k], n.area));
     f[n.owner] += to_kernel(reaction);
     reactions[static_cast<std::size_t>(g)] -= reaction;
   });

@@ -7,16 +7,41 @@
 
 namespace tessera {
 
-Forces::Forces(const System& system) : system_(system) {
+namespace {
+
+using Lease = parallel::Workspaces<TileScratch>::Lease;
+
+const Tile& tile_of(const System& s, Index tile) { return s.tiles.tiles[static_cast<std::size_t>(tile)]; }
+
+bool treats_stresses_apart(const System& s) {
+  const bool direct_reactions = s.d.boundary_force == BoundaryForce::direct && s.boundary_nodes() > 0;
+  return direct_reactions || s.d.direct.has_value();
+}
+
+/// Calls body(k, a) for every owner of boundary nodes in a tile: its number and the particle.
+template <class Body>
+void for_each_owner(const System& s, Index tile, Body&& body) {
+  for (Index k = tile_of(s, tile).first_owner; k < s.tiles.end_of(tile).first_owner; ++k)
+    body(k, s.owners[static_cast<std::size_t>(k)]);
+}
+
+}  // namespace
+
+Forces::Forces(const System& system)
+    : system_(system), split_(treats_stresses_apart(system)), scratch_([this] {
+        auto scratch = std::make_unique<TileScratch>(system_);
+        if (split_) scratch->P.resize(scratch->T.size());
+        return scratch;
+      }) {
   const auto particles = static_cast<std::size_t>(system.particles());
   const auto nodes = static_cast<std::size_t>(system.boundary_nodes());
   F_.resize(particles);
-  T_.resize(particles);
   f_.resize(particles);
   R_.resize(nodes);
   reactions_.resize(nodes);
-  const bool direct = system.d.boundary_force == BoundaryForce::direct && nodes > 0;
-  if (direct || system.d.direct) P_.resize(particles);
+  rim_f_.resize(system.tiles.rim.size());
+  if (system.d.direct) rim_f_direct_.resize(system.tiles.rim.size());
+  if (split_) owners_P_.resize(system.owners.size());
   if (!system.viscosity.empty()) {
     viscous_.F_previous.resize(particles);
     viscous_.P_previous.resize(particles);
@@ -25,21 +50,10 @@ Forces::Forces(const System& system) : system_(system) {
 
 void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
   strain(state, action);
-  stress(state, dt);
+  sums_ = parallel::sum_tasks<StressSums>(
+      system_.tiles.size(), [&](std::int64_t tile) { return tile_forces(static_cast<Index>(tile), state, dt); });
   drain();
-  add_external(action);
-  const System& s = system_;
-  if (split() && !s.d.direct)
-    parallel::for_each(s.particles(), [&](std::int64_t a) {
-      const auto k = static_cast<std::size_t>(a);
-      T_[k] = P_[k] + T_[k];
-    });
-  parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
-    const auto first = static_cast<Index>(begin), last = static_cast<Index>(end);
-    force_sweep(s.d.bonds, s.d.bonds.B_ba.data(), s.d.B_aa.data(), T_.data(), f_.data(), first, last);
-    if (s.d.direct)
-      force_sweep(s.d.bonds, s.d.direct->B_ba.data(), s.d.direct->B_aa.data(), P_.data(), f_.data(), first, last);
-  });
+  finish(action);
 }
 
 void Forces::restore_previous_deformation(Field<Columns> F) {
@@ -50,77 +64,100 @@ void Forces::strain(State& state, const ExternalAction& action) {
   const System& s = system_;
   if (!s.viscosity.empty()) std::swap(F_, viscous_.F_previous);
   fill_boundary_nodes(s, action.walls, state.x.data());
-  parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
-    strain_sweep(s, state.x.data(), F_.data(), static_cast<Index>(begin), static_cast<Index>(end));
+  parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
+    const Lease scratch(scratch_);
+    strain_sweep(s, static_cast<Index>(tile), state.x.data(), F_.data(), *scratch);
   });
   add_boundary_strain(s, state.x.data(), F_.data());
 }
 
-void Forces::stress(const State& state, double dt) {
+/// Stresses of one tile's own particles and what they do to each other, to the rim and to boundary nodes.
+StressSums Forces::tile_forces(Index tile, const State& state, double dt) {
   const System& s = system_;
-  const StressSweep sweep{s,
-                          state.x.data(),
-                          F_.data(),
-                          T_.data(),
-                          split() ? P_.data() : nullptr,
-                          f_.data(),
-                          s.viscosity.empty() ? nullptr : &viscous_,
-                          dt};
-  sums_ = {};
-  for (const MaterialRange& r : s.ranges)
-    sums_ += parallel::sum_ranges<StressSums>(r.begin, r.end, [&](std::int64_t begin, std::int64_t end) {
-      return sweep(s.materials[static_cast<std::size_t>(r.material)], static_cast<Index>(begin),
-                   static_cast<Index>(end));
-    });
-  sums_.contact += add_boundary_bonds(s, state.x.data(), F_.data(), T_.data(), f_.data(), R_.data());
+  const Lease scratch(scratch_);
+  const Index first = tile_of(s, tile).begin;
+  const double contact = contact_sweep(s, tile, state.x.data(), F_.data(), f_.data(), *scratch);
+  StressSums sums = stress_sweep(s, tile, F_.data(), s.viscosity.empty() ? nullptr : &viscous_, dt, *scratch);
+  sums.contact = contact;
+  for_each_owner(s, tile, [&](Index k, Index a) {
+    Columns& T = scratch->T[static_cast<std::size_t>(a - first)];
+    sums.contact += add_boundary_bonds(s, k, state.x.data(), F_[static_cast<std::size_t>(a)], T,
+                                       f_[static_cast<std::size_t>(a)], R_.data());
+    add_node_forces(s, k, T, R_.data());
+    if (split()) owners_P_[static_cast<std::size_t>(k)] = scratch->P[static_cast<std::size_t>(a - first)];
+  });
+  hand_on(tile, *scratch);
+  return sums;
+}
+
+void Forces::hand_on(Index tile, TileScratch& scratch) {
+  const System& s = system_;
+  if (split() && !s.d.direct)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(s, tile).size()); ++a)
+      scratch.T[a] = scratch.P[a] + scratch.T[a];
+  force_sweep(s, tile, scratch.T.data(), s.tiles.B.data(), s.d.B_aa.data(), f_.data(), rim_f_.data());
+  if (s.d.direct)
+    force_sweep(s, tile, scratch.P.data(), s.tiles.direct_B.data(), s.d.direct->B_aa.data(), f_.data(),
+                rim_f_direct_.data());
 }
 
 void Forces::drain() {
   std::fill(reactions_.begin(), reactions_.end(), Vec3{});
-  add_node_forces(system_, T_.data(), R_.data());
   drain_boundary_nodes(system_, R_.data(), f_.data(), reactions_);
   if (!split()) return;
-  if (!system_.d.direct) drain_with_held_branches(system_, P_.data(), R_.data(), f_.data());
-  add_direct_reactions(system_, P_.data(), f_.data(), reactions_);
+  if (!system_.d.direct) drain_with_held_branches(system_, owners_P_.data(), R_.data(), f_.data());
+  add_direct_reactions(system_, owners_P_.data(), f_.data(), reactions_);
 }
 
-void Forces::add_external(const ExternalAction& action) {
+/// Adds tractions, what other tiles have done, and gravity.
+void Forces::finish(const ExternalAction& action) {
+  const System& s = system_;
   for (const NodalForce& l : action.tractions) f_[static_cast<std::size_t>(l.particle)] += to_kernel(l.force);
-  if (action.gravity == Vec3{}) return;
   const Double4 g = to_kernel(action.gravity);
-  parallel::for_each(system_.particles(), [&](std::int64_t a) {
-    f_[static_cast<std::size_t>(a)] += system_.mass[static_cast<std::size_t>(a)] * g;
+  parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
+    const auto first = static_cast<Index>(begin), last = static_cast<Index>(end);
+    collect_rims(s.tiles, rim_f_.data(), f_.data(), first, last);
+    if (s.d.direct) collect_rims(s.tiles, rim_f_direct_.data(), f_.data(), first, last);
+    if (action.gravity == Vec3{}) return;
+    for (Index a = first; a < last; ++a) f_[static_cast<std::size_t>(a)] += s.mass[static_cast<std::size_t>(a)] * g;
   });
 }
 
-Forces::Internal Forces::internal(const State& state) const {
+Forces::Internal Forces::internal(const State&) const {
   const System& s = system_;
   const auto particles = static_cast<std::size_t>(s.particles());
   Internal result{Field<Columns>(particles), Field<Double4>(particles)};
-  Field<Columns> contact(particles);
-  const StressSweep sweep{s,  state.x.data(), F_.data(), contact.data(), result.P.data(), result.force.data(), nullptr,
-                          0.0};
-  for (const MaterialRange& r : s.ranges)
-    parallel::for_ranges(r.begin, r.end, [&](std::int64_t begin, std::int64_t end) {
-      sweep(s.materials[static_cast<std::size_t>(r.material)], static_cast<Index>(begin), static_cast<Index>(end));
-    });
-  for (std::size_t a = 0; a < viscous_.P_previous.size(); ++a) result.P[a] = result.P[a] + viscous_.P_previous[a];
-
-  std::fill(result.force.begin(), result.force.end(), Double4{});
-  Field<Double4> R(static_cast<std::size_t>(s.boundary_nodes()));
-  std::vector<Vec3> reactions(static_cast<std::size_t>(s.boundary_nodes()));
-  const Vec3* B_ba = s.d.direct ? s.d.direct->B_ba.data() : s.d.bonds.B_ba.data();
+  Field<Double4> R(static_cast<std::size_t>(s.boundary_nodes())), rim_f(s.tiles.rim.size());
+  Field<Columns> owners_P(s.owners.size());
+  const Vec3* B = s.d.direct ? s.tiles.direct_B.data() : s.tiles.B.data();
   const Vec3* B_aa = s.d.direct ? s.d.direct->B_aa.data() : s.d.B_aa.data();
+  parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
+    const auto tile = static_cast<Index>(task);
+    const Tile& t = tile_of(s, tile);
+    const Lease scratch(scratch_);
+    Columns* P = split() ? scratch->P.data() : scratch->T.data();
+    std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
+    stress_sweep(s, tile, F_.data(), nullptr, 0.0, *scratch);
+    for (Index a = t.begin; a < t.end; ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      if (!viscous_.P_previous.empty()) P[a - t.begin] = P[a - t.begin] + viscous_.P_previous[k];
+      result.P[k] = P[a - t.begin];
+    }
+    for_each_owner(s, tile, [&](Index k, Index a) {
+      owners_P[static_cast<std::size_t>(k)] = P[a - t.begin];
+      add_node_forces(s, k, P[a - t.begin], R.data());
+    });
+    force_sweep(s, tile, P, B, B_aa, result.force.data(), rim_f.data());
+  });
+  std::vector<Vec3> reactions(static_cast<std::size_t>(s.boundary_nodes()));
   if (split()) {
-    if (!s.d.direct) drain_with_held_branches(s, result.P.data(), R.data(), result.force.data());
-    add_direct_reactions(s, result.P.data(), result.force.data(), reactions);
+    if (!s.d.direct) drain_with_held_branches(s, owners_P.data(), R.data(), result.force.data());
+    add_direct_reactions(s, owners_P.data(), result.force.data(), reactions);
   } else {
-    add_node_forces(s, result.P.data(), R.data());
     drain_boundary_nodes(s, R.data(), result.force.data(), reactions);
   }
   parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
-    force_sweep(s.d.bonds, B_ba, B_aa, result.P.data(), result.force.data(), static_cast<Index>(begin),
-                static_cast<Index>(end));
+    collect_rims(s.tiles, rim_f.data(), result.force.data(), static_cast<Index>(begin), static_cast<Index>(end));
   });
   return result;
 }

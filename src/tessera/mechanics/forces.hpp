@@ -8,6 +8,7 @@
 #include "tessera/mechanics/state.hpp"
 #include "tessera/mechanics/sweeps.hpp"
 #include "tessera/mechanics/system.hpp"
+#include "tessera/parallel/workspaces.hpp"
 
 namespace tessera {
 
@@ -18,7 +19,8 @@ struct ExternalAction {
   Vec3 gravity;                           // [m/s2]
 };
 
-/// Forces as the gradient of the potential: fill, strain, stress, force, drain. One object is kept and reused.
+/// Forces as the gradient of the potential: fill the boundary nodes; strain tile by tile; stress and force tile by
+/// tile; drain the boundary nodes; add up. One object is kept and reused.
 class Forces {
  public:
   explicit Forces(const System& system);
@@ -47,15 +49,20 @@ class Forces {
 
  private:
   void strain(State& state, const ExternalAction& action);
-  void stress(const State& state, double dt);
+  StressSums tile_forces(Index tile, const State& state, double dt);
+  void hand_on(Index tile, TileScratch& scratch);
   void drain();
-  void add_external(const ExternalAction& action);
+  void finish(const ExternalAction& action);
   /// Boundary nodes or rows treat the elastic stress and the contact stress differently ([V 42, 43]).
-  bool split() const { return !P_.empty(); }
+  bool split() const { return split_; }
 
   const System& system_;
-  Field<Columns> F_, T_, P_;  // P_ only when split()
+  bool split_;
+  Field<Columns> F_;
   Field<Double4> f_, R_;
+  Field<Double4> rim_f_, rim_f_direct_;  // what tiles do to their rims; the second for the rows of [V 42]
+  Field<Columns> owners_P_;              // P of each owner of boundary nodes, when split()
+  mutable parallel::Workspaces<TileScratch> scratch_;
   std::vector<Vec3> reactions_;
   ViscousMemory viscous_;
   StressSums sums_;

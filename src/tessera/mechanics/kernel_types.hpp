@@ -1,13 +1,10 @@
 #pragma once
 
 #include "tessera/base/field.hpp"
+#include "tessera/base/lanes.hpp"
 #include "tessera/base/mat3.hpp"
 
 namespace tessera {
-
-/// A vector in the layout of the sweeps: three components and a zero, so that one register holds it.
-/// Arrays of it are Fields: the compiler takes its alignment for granted.
-using Double4 = double __attribute__((vector_size(32)));
 
 /// A tensor by columns, so that T B = column0 B_x + column1 B_y + column2 B_z takes three multiply-adds.
 struct Columns {

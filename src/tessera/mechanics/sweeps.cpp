@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tessera/laws/neo_hookean.hpp"
+#include "tessera/laws/neo_hookean_lanes.hpp"
 
 // One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__OPTIMIZE_SIZE__) && defined(__OPTIMIZE__)
-#define TESSERA_KERNEL __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
+#define TESSERA_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), flatten))
 #else
 #define TESSERA_KERNEL
 #endif
@@ -17,16 +17,19 @@ namespace tessera {
 
 namespace {
 
-// How many bonds ahead the values of neighbours are fetched: their addresses jump, so the processor cannot foresee
-// them.
-constexpr Offset lookahead = 24;
+// How far ahead values of the rim are fetched: their addresses jump, so the processor cannot foresee them.
+constexpr Index lookahead = 8;
 
 template <class T>
-inline void fetch(const T* values, Index b) {
-  const char* first = reinterpret_cast<const char*>(values + b);
+inline void fetch(const T* value) {
+  const char* first = reinterpret_cast<const char*>(value);
   __builtin_prefetch(first);
   if constexpr (sizeof(T) > 64) __builtin_prefetch(first + sizeof(T) - 1);
 }
+
+inline const Tile& tile_of(const System& s, Index tile) { return s.tiles.tiles[static_cast<std::size_t>(tile)]; }
+
+inline Columns minus_half(const Columns& F) { return {-0.5 * F.c0, -0.5 * F.c1, -0.5 * F.c2}; }
 
 }  // namespace
 
@@ -39,140 +42,235 @@ StressSums& StressSums::operator+=(const StressSums& o) {
   return *this;
 }
 
-TESSERA_KERNEL void strain_sweep(const System& s, const Double4* x, Columns* F, Index begin, Index end) {
-  const Offset* offset = s.d.bonds.offset.data();
-  const Index* neighbour = s.d.bonds.neighbour.data();
-  const Vec3* B_ab = s.d.bonds.B_ab.data();
-  const Offset last = s.d.bonds.size() - 1;
-  for (Index a = begin; a < end; ++a) {
-    const Double4 x_a = x[a];
-    Columns VF{};
-    for (Offset i = offset[a]; i < offset[a + 1]; ++i) {
-      fetch(x, neighbour[std::min(i + lookahead, last)]);
-      add_outer(VF, x[neighbour[i]] - x_a, B_ab[i]);
-    }
-    F[a] = (1.0 / s.d.volume[static_cast<std::size_t>(a)]) * VF;
-  }
-}
+TileScratch::TileScratch(const System& s)
+    : nodes(static_cast<std::size_t>(s.tiles.most_nodes)), T(static_cast<std::size_t>(s.tiles.most_particles)) {}
 
-TESSERA_KERNEL void force_sweep(const Bonds& bonds, const Vec3* B_ba, const Vec3* B_aa, const Columns* T, Double4* f,
-                                Index begin, Index end) {
-  const Offset* offset = bonds.offset.data();
-  const Index* neighbour = bonds.neighbour.data();
-  const Offset last = bonds.size() - 1;
-  for (Index a = begin; a < end; ++a) {
-    Double4 sum = apply(T[a], B_aa[a]);
-    for (Offset i = offset[a]; i < offset[a + 1]; ++i) {
-      fetch(T, neighbour[std::min(i + lookahead, last)]);
-      sum += apply(T[neighbour[i]], B_ba[i]);
-    }
-    f[a] -= sum;
+TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Columns* F, TileScratch& scratch) {
+  const Tile& tile = tile_of(s, k);
+  const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
+  const Index* rim = s.tiles.rim.data() + tile.rim;
+  TileNode* __restrict nodes = scratch.nodes.data();
+  for (Index a = 0; a < own; ++a) nodes[a].x = x[tile.begin + a];
+  for (Index i = 0; i < rim_size; ++i) {
+    fetch(x + rim[std::min(i + lookahead, rim_size - 1)]);
+    nodes[own + i].x = x[rim[i]];
+  }
+  const std::uint16_t* count = s.tiles.count.data() + tile.begin;
+  const std::uint16_t* neighbour = s.tiles.neighbour.data() + tile.lane;
+  const Vec3* B = s.tiles.B.data() + tile.bond;
+  const double* volume = s.d.volume.data() + tile.begin;
+  Columns* __restrict F_own = F + tile.begin;
+  for (Index a = 0; a < own; ++a) {
+    const Double4 x_a = nodes[a].x;
+    Columns VF{};
+    const Index bonds = count[a];
+    for (Index i = 0; i < bonds; ++i) add_outer(VF, nodes[neighbour[i]].x - x_a, B[i]);
+    neighbour += (bonds + 3) / 4 * 4;
+    B += bonds;
+    F_own[a] = (1.0 / volume[a]) * VF;
   }
 }
 
 namespace {
 
-/// Sums over the bonds of one particle, in the layout of the sweeps; the same as bond_response().
+/// Sums over the bonds of one particle, four bonds at a time; the same as bond_response().
 struct BondSums {
-  double energy = 0.0;  // half of each bond's
-  Double4 force{};      // sum dU/dx
-  Columns moment{};     // - sum dU/dy (x) X
+  Lanes3 force;                         // - sum dU/dx
+  Lanes3 moment_0, moment_1, moment_2;  // the columns of - sum dU/dy (x) X
 };
 
-/// a . b / c . d of vectors with a zero in the fourth place.
-inline double ratio_of_products(const Double4& a, const Double4& b, const Double4& c, const Double4& d) {
-  using Mask = long long __attribute__((vector_size(32)));
-  const Double4 p = a * b, q = c * d;
-  const Double4 t = __builtin_shuffle(p, q, Mask{0, 4, 2, 6}) + __builtin_shuffle(p, q, Mask{1, 5, 3, 7});
-  return (t[0] + t[2]) / (t[1] + t[3]);
+struct ContactStiffness {
+  double tangential, difference;  // Kt and Kn - Kt per area over length [Pa]
+};
+
+/// Adds four bonds of particle a to the sums and returns their energies times two. Branches are taken from the
+/// neighbour to a: that turns the signs of u and of the forces, and leaves the moments.
+inline Double4 add_bonds(const TileNode& a, const TileNode* nodes, const std::uint16_t* neighbour,
+                         const Double4& area_over_length, ContactStiffness stiffness, BondSums& sums) {
+  const TileNode &b0 = nodes[neighbour[0]], &b1 = nodes[neighbour[1]], &b2 = nodes[neighbour[2]],
+                 &b3 = nodes[neighbour[3]];
+  const auto difference = [&](Double4 TileNode::*v) {
+    return transposed(a.*v - b0.*v, a.*v - b1.*v, a.*v - b2.*v, a.*v - b3.*v);
+  };
+  const auto minus_mean = [&](Double4 Columns::*c) {
+    const Double4 F = a.minus_half_F.*c;
+    return transposed(F + b0.minus_half_F.*c, F + b1.minus_half_F.*c, F + b2.minus_half_F.*c, F + b3.minus_half_F.*c);
+  };
+  const Lanes3 X = difference(&TileNode::X), x = difference(&TileNode::x);
+  const Lanes3 F0 = minus_mean(&Columns::c0), F1 = minus_mean(&Columns::c1), F2 = minus_mean(&Columns::c2);
+  const Lanes3 u{x.x + F0.x * X.x + F1.x * X.y + F2.x * X.z, x.y + F0.y * X.x + F1.y * X.y + F2.y * X.z,
+                 x.z + F0.z * X.x + F1.z * X.y + F2.z * X.z};  // [D 7]
+  const Double4 inverse_square = 1.0 / (x.x * x.x + x.y * x.y + x.z * x.z);
+  const Double4 p = (u.x * x.x + u.y * x.y + u.z * x.z) * inverse_square;  // u^n = p x_ab, [D 10]
+  const Double4 K = area_over_length * stiffness.tangential, q = (area_over_length * stiffness.difference) * p;
+  const Lanes3 elastic{K * u.x + q * x.x, K * u.y + q * x.y, K * u.z + q * x.z};  // -dU/dy, [D 58]
+  const auto add_moment = [&](Lanes3& column, const Double4& X_j) {
+    column.x += elastic.x * X_j;
+    column.y += elastic.y * X_j;
+    column.z += elastic.z * X_j;
+  };
+  add_moment(sums.moment_0, X.x);
+  add_moment(sums.moment_1, X.y);
+  add_moment(sums.moment_2, X.z);
+  sums.force.x += elastic.x + q * (u.x - p * x.x);  // dU/dx, [D 57]
+  sums.force.y += elastic.y + q * (u.y - p * x.y);
+  sums.force.z += elastic.z + q * (u.z - p * x.z);
+  return elastic.x * u.x + elastic.y * u.y + elastic.z * u.z;
 }
 
-inline BondSums sum_bonds(const System& s, const Double4* x, const Columns* F, double stiffness_n, double stiffness_t,
-                          Index a) {
-  const Bonds& bonds = s.d.bonds;
-  const Index* neighbour = bonds.neighbour.data();
-  const Vec3* X_ref = s.d.X.data();
-  const double* area_over_length = bonds.area_over_length.data();
-  const double stiffness_difference = stiffness_n - stiffness_t;
-  const Double4 x_a = x[a];
-  const Vec3 X_a = X_ref[a];
-  const Columns F_a = F[a];
-  BondSums sums;
-  Double4 energy{};
-  const Offset end = bonds.offset[static_cast<std::size_t>(a) + 1], last = bonds.size() - 1;
-  for (Offset i = bonds.offset[static_cast<std::size_t>(a)]; i < end; ++i) {
-    const Index b = neighbour[i], ahead = neighbour[std::min(i + lookahead, last)];
-    fetch(F, ahead);
-    fetch(x, ahead);
-    fetch(X_ref, ahead);
-    const Vec3 X = X_ref[b] - X_a;
-    const Double4 x_ab = x[b] - x_a;
-    const Double4 u = x_ab - 0.5 * apply(F_a + F[b], X);      // [D 7]
-    const double p = ratio_of_products(u, x_ab, x_ab, x_ab);  // u^n = p x_ab, [D 10]
-    const double q = stiffness_difference * p;
-    const Double4 u_t = u - p * x_ab;
-    const Double4 elastic = stiffness_t * u + q * x_ab;       // -dU/dy per A/L, [D 58]
-    sums.force += area_over_length[i] * (elastic + q * u_t);  // dU/dx, [D 57]
-    const Double4 scaled = area_over_length[i] * elastic;
-    add_outer(sums.moment, scaled, X);
-    energy += scaled * u;
+inline void load_nodes(const System& s, Index k, const Double4* x, const Columns* F, TileNode* __restrict nodes) {
+  const Tile& tile = tile_of(s, k);
+  const Vec3* X = s.d.X.data();
+  const auto load = [&](TileNode& node, Index b) {
+    node = {x[b], Double4{X[b].x, X[b].y, X[b].z, 0.0}, minus_half(F[b])};
+  };
+  for (Index b = tile.begin; b < tile.end; ++b) load(nodes[b - tile.begin], b);
+  const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
+  const Index* rim = s.tiles.rim.data() + tile.rim;
+  for (Index i = 0; i < rim_size; ++i) {
+    const Index ahead = rim[std::min(i + lookahead, rim_size - 1)];
+    fetch(F + ahead);
+    fetch(x + ahead);
+    fetch(X + ahead);
+    load(nodes[own + i], rim[i]);
   }
-  sums.energy = 0.25 * (energy[0] + energy[1] + energy[2]);
-  return sums;
-}
-
-/// P of one particle: elastic part, then the viscous one if there is any.
-template <class Law>
-inline Mat3 particle_stress(const StressSweep& w, const Law& law, Index a, const Mat3& F, double J, StressSums& sums) {
-  const double V = w.s.d.volume[static_cast<std::size_t>(a)];
-  sums.smallest_J = std::min(sums.smallest_J, J);
-  sums.finite = sums.finite && std::isfinite(J);
-  const auto response = law.response(F);
-  sums.internal += V * response.energy;
-  Mat3 P = response.stress;
-  if (w.viscous != nullptr && w.dt > 0.0) {
-    const auto k = static_cast<std::size_t>(a);
-    const Mat3 dF = F - to_mat3(w.viscous->F_previous[k]);
-    const Mat3 P_viscous = viscous_stress(w.s.viscosity[k], F, (1.0 / w.dt) * dF);
-    sums.dissipated += 0.5 * V * contract(P_viscous + to_mat3(w.viscous->P_previous[k]), dF);
-    w.viscous->P_previous[k] = to_kernel(P_viscous);
-    P += P_viscous;
-  }
-  return P;
-}
-
-template <class Law>
-inline StressSums stress_range(const StressSweep& w, const Law& law, double stiffness_n, double stiffness_t,
-                               Index begin, Index end) {
-  StressSums sums;
-  for (Index a = begin; a < end; ++a) {
-    const Mat3 F = to_mat3(w.F[a]);
-    const Columns P = to_kernel(particle_stress(w, law, a, F, determinant(F), sums));
-    const BondSums bonds = sum_bonds(w.s, w.x, w.F, stiffness_n, stiffness_t, a);
-    const Columns Q = (-0.5 / w.s.d.volume[static_cast<std::size_t>(a)]) * bonds.moment;
-    if (w.P != nullptr) {
-      w.P[a] = P;
-      w.T[a] = Q;
-    } else {
-      w.T[a] = P + Q;
-    }
-    w.f[a] = bonds.force;
-    sums.contact += bonds.energy;
-  }
-  return sums;
-}
-
-TESSERA_KERNEL StressSums stress_of(const StressSweep& w, const NeoHookean& law, double stiffness_n, double stiffness_t,
-                                    Index begin, Index end) {
-  return stress_range(w, law, stiffness_n, stiffness_t, begin, end);
 }
 
 }  // namespace
 
-StressSums StressSweep::operator()(const Material& m, Index begin, Index end) const {
-  const double stiffness_n = m.contact.normal * m.young, stiffness_t = m.contact.tangential * m.shear_modulus();
-  return std::visit([&](const auto& law) { return stress_of(*this, law, stiffness_n, stiffness_t, begin, end); },
-                    m.law);
+TESSERA_KERNEL double contact_sweep(const System& s, Index k, const Double4* x, const Columns* F, Double4* f,
+                                    TileScratch& scratch) {
+  const Tile& tile = tile_of(s, k);
+  load_nodes(s, k, x, F, scratch.nodes.data());
+  const Material& m = s.materials[static_cast<std::size_t>(tile.material)];
+  const double Kn = m.contact.normal * m.young, Kt = m.contact.tangential * m.shear_modulus();
+  const ContactStiffness stiffness{Kt, Kn - Kt};
+  const TileNode* nodes = scratch.nodes.data();
+  Columns* __restrict T = scratch.T.data();
+  Double4* __restrict f_own = f + tile.begin;
+  const std::uint16_t* count = s.tiles.count.data() + tile.begin;
+  const std::uint16_t* neighbour = s.tiles.neighbour.data() + tile.lane;
+  const double* area_over_length = s.tiles.area_over_length.data() + tile.lane;
+  const double* volume = s.d.volume.data() + tile.begin;
+  // The next sweep reads the gradient vectors of the tile in another order, so they are brought near.
+  const char* B = reinterpret_cast<const char*>(s.tiles.B.data() + tile.bond);
+  Double4 energy{};
+  for (Index a = 0; a < tile.size(); ++a) {
+    const TileNode node = nodes[a];
+    BondSums sums;
+    for (Index groups = (count[a] + 3) / 4; groups > 0; --groups, neighbour += 4, area_over_length += 4, B += 96) {
+      __builtin_prefetch(B);
+      __builtin_prefetch(B + 64);
+      const Double4 A_L{area_over_length[0], area_over_length[1], area_over_length[2], area_over_length[3]};
+      energy += add_bonds(node, nodes, neighbour, A_L, stiffness, sums);
+    }
+    f_own[a] = -sum(sums.force);
+    const double share = -0.5 / volume[a];
+    T[a] = {share * sum(sums.moment_0), share * sum(sums.moment_1), share * sum(sums.moment_2)};
+  }
+  return 0.25 * sum(energy);
+}
+
+namespace {
+
+inline Lanes9 to_lanes(const Columns& a, const Columns& b, const Columns& c, const Columns& d) {
+  const Lanes3 c0 = transposed(a.c0, b.c0, c.c0, d.c0), c1 = transposed(a.c1, b.c1, c.c1, d.c1),
+               c2 = transposed(a.c2, b.c2, c.c2, d.c2);
+  return {c0.x, c1.x, c2.x, c0.y, c1.y, c2.y, c0.z, c1.z, c2.z};
+}
+
+/// Tensor k of four.
+inline Columns tensor_of(const Lanes9& t, int k) {
+  return {Double4{t.xx[k], t.yx[k], t.zx[k], 0.0}, Double4{t.xy[k], t.yy[k], t.zy[k], 0.0},
+          Double4{t.xz[k], t.yz[k], t.zz[k], 0.0}};
+}
+
+/// Adds the viscous stress of particle a, [D 61, 62], to P; returns the work that it has taken since the last time [J].
+inline double add_viscous_stress(const System& s, Index a, const Columns& F, ViscousMemory& viscous, double dt,
+                                 Columns& P) {
+  const auto k = static_cast<std::size_t>(a);
+  const Mat3 F_a = to_mat3(F), dF = F_a - to_mat3(viscous.F_previous[k]);
+  const Mat3 P_viscous = viscous_stress(s.viscosity[k], F_a, (1.0 / dt) * dF);
+  const double work = 0.5 * s.d.volume[k] * contract(P_viscous + to_mat3(viscous.P_previous[k]), dF);
+  viscous.P_previous[k] = to_kernel(P_viscous);
+  P = P + viscous.P_previous[k];
+  return work;
+}
+
+template <class Law>
+inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, const Columns* F, ViscousMemory* viscous,
+                            double dt, TileScratch& scratch) {
+  const double* volume = s.d.volume.data();
+  Columns* __restrict T = scratch.T.data();
+  StressSums sums;
+  Double4 smallest_J{};
+  smallest_J += std::numeric_limits<double>::infinity();
+  Double4 not_finite{};
+  for (Index first = tile.begin; first < tile.end; first += 4) {
+    const Index lanes = std::min<Index>(4, tile.end - first);
+    const auto at = [&](Index lane) { return first + std::min(lane, lanes - 1); };
+    const auto response_4 = response(law, to_lanes(F[at(0)], F[at(1)], F[at(2)], F[at(3)]));
+    smallest_J = smallest_J < response_4.J ? smallest_J : response_4.J;
+    not_finite += response_4.J - response_4.J;
+    for (Index lane = 0; lane < lanes; ++lane) {
+      const Index a = first + lane, local = a - tile.begin;
+      sums.internal += volume[a] * response_4.energy[lane];
+      Columns P = tensor_of(response_4.stress, lane);
+      if (viscous != nullptr && dt > 0.0) sums.dissipated += add_viscous_stress(s, a, F[a], *viscous, dt, P);
+      if (scratch.P.empty())
+        T[local] = T[local] + P;
+      else
+        scratch.P[static_cast<std::size_t>(local)] = P;
+    }
+  }
+  sums.smallest_J = std::min(std::min(smallest_J[0], smallest_J[1]), std::min(smallest_J[2], smallest_J[3]));
+  sums.finite = std::isfinite(sum(not_finite));
+  return sums;
+}
+
+TESSERA_KERNEL StressSums neo_hookean_sweep(const System& s, const Tile& tile, const NeoHookean& law, const Columns* F,
+                                            ViscousMemory* viscous, double dt, TileScratch& scratch) {
+  return stress_of(s, tile, law, F, viscous, dt, scratch);
+}
+
+}  // namespace
+
+StressSums stress_sweep(const System& s, Index k, const Columns* F, ViscousMemory* viscous, double dt,
+                        TileScratch& scratch) {
+  const Tile& tile = tile_of(s, k);
+  const Material& m = s.materials[static_cast<std::size_t>(tile.material)];
+  return std::visit([&](const auto& law) { return neo_hookean_sweep(s, tile, law, F, viscous, dt, scratch); }, m.law);
+}
+
+TESSERA_KERNEL void force_sweep(const System& s, Index k, const Columns* T, const Vec3* B, const Vec3* B_aa, Double4* f,
+                                Double4* rim_f) {
+  const Tile& tile = tile_of(s, k);
+  const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
+  const std::uint16_t* count = s.tiles.incoming_count.data() + tile.node;
+  const Tiles::Incoming* incoming = s.tiles.incoming.data() + tile.incoming;
+  const Vec3* B_tile = B + tile.bond;
+  const auto received = [&](Index bonds) {
+    Double4 sum_0{}, sum_1{}, sum_2{};
+    for (const Tiles::Incoming* end = incoming + bonds; incoming != end; ++incoming) {
+      const Columns& T_a = T[incoming->from];
+      const Vec3& B_ab = B_tile[incoming->bond];
+      sum_0 += T_a.c0 * B_ab.x;
+      sum_1 += T_a.c1 * B_ab.y;
+      sum_2 += T_a.c2 * B_ab.z;
+    }
+    return sum_0 + sum_1 + sum_2;
+  };
+  Double4* __restrict f_own = f + tile.begin;
+  for (Index a = 0; a < own; ++a) f_own[a] -= received(count[a]) + apply(T[a], B_aa[tile.begin + a]);
+  for (Index i = 0; i < rim_size; ++i) rim_f[tile.rim + i] = -received(count[own + i]);
+}
+
+void collect_rims(const Tiles& tiles, const Double4* rim_f, Double4* f, Index begin, Index end) {
+  for (Index a = begin; a < end; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    for (Offset i = tiles.rim_offset[k]; i < tiles.rim_offset[k + 1]; ++i)
+      f[a] += rim_f[tiles.rim_place[static_cast<std::size_t>(i)]];
+  }
 }
 
 }  // namespace tessera

@@ -24,28 +24,40 @@ struct ViscousMemory {
   Field<Columns> P_previous;  // viscous stress one step ago [Pa]
 };
 
-/// The three sweeps over the particles [begin, end). Each writes only what belongs to these particles.
-/// Sweep 1: F_a = (1/V_a) sum_b x_ab (x) B_ab, [D 32], [V 6], boundary nodes left out.
-void strain_sweep(const System& s, const Double4* x, Columns* F, Index begin, Index end);
-
-/// Sweep 2, for particles of one material: T_a = P(F_a) + Q_a, where Q_a = (1/2V_a) sum_b dU_ab/dy_ab (x) X_ab is the
-/// contact stress, and f_a = sum_b dU_ab/dx_ab. `dt` is the time since the last evaluation (viscosity), zero at the
-/// first one.
-struct StressSweep {
-  const System& s;
-  const Double4* x;
-  const Columns* F;
-  Columns* T;  // total stress, or the contact stress alone when P is given
-  Columns* P;  // null, or where the (elastic and viscous) stress goes
-  Double4* f;
-  ViscousMemory* viscous;  // null: no viscosity
-  double dt;
-
-  StressSums operator()(const Material& material, Index begin, Index end) const;
+/// What is known of one particle while a tile is worked on.
+struct TileNode {
+  Double4 x, X;  // position, reference position [m]
+  Columns minus_half_F;
 };
 
-/// Sweep 3: f_a -= T_a B_aa + sum_b T_b B_ba, [D 45], [V 41].
-void force_sweep(const Bonds& bonds, const Vec3* B_ba, const Vec3* B_aa, const Columns* T, Double4* f, Index begin,
-                 Index end);
+/// Memory for one tile at a time, by local numbers.
+struct TileScratch {
+  explicit TileScratch(const System& s);
+
+  Field<TileNode> nodes;
+  Field<Columns> T;  // stress of the tile's own particles that the bonds hand on [Pa]
+  Field<Columns> P;  // elastic and viscous part of it where it goes another way, else empty
+};
+
+/// Sweep 1: F_a = (1/V_a) sum_b x_ab (x) B_ab, [D 32], [V 6], boundary nodes left out.
+void strain_sweep(const System& s, Index tile, const Double4* x, Columns* F, TileScratch& scratch);
+
+/// Sweep 2, first half. Copies the values of the tile and its rim; f_a = sum_b dU_ab/dx_ab, [D 57], and the contact
+/// stress T_a = Q_a = (1/2V_a) sum_b dU_ab/dy_ab (x) X_ab, [D 58], of the tile's own particles.
+double contact_sweep(const System& s, Index tile, const Double4* x, const Columns* F, Double4* f, TileScratch& scratch);
+
+/// Sweep 2, second half: the elastic and viscous stress P(F_a) of the tile's own particles, added to T or, where the
+/// scratch has room for P, put there. `dt` is the time since the last evaluation (viscosity), zero at the first one;
+/// `viscous` is null without viscosity.
+StressSums stress_sweep(const System& s, Index tile, const Columns* F, ViscousMemory* viscous, double dt,
+                        TileScratch& scratch);
+
+/// Sweep 3: what the tile's own particles do by their stress T, f_b -= T_a B_ab and f_a -= T_a B_aa, [D 45], [V 41]:
+/// to each other in `f`, to the rim in `rim_f`, which is set.
+void force_sweep(const System& s, Index tile, const Columns* T, const Vec3* B, const Vec3* B_aa, Double4* f,
+                 Double4* rim_f);
+
+/// Adds to f_a, a in [begin, end), what other tiles have put into their rims.
+void collect_rims(const Tiles& tiles, const Double4* rim_f, Double4* f, Index begin, Index end);
 
 }  // namespace tessera

@@ -63,19 +63,29 @@ void transpose_closure(System& s) {
   for (const Target& t : rows.value) s.returned_to_node.value.push_back(t.term);
 }
 
-void prepare_viscosity(System& s, const std::vector<Index>& material_of) {
+/// The owners of each tile's boundary nodes.
+void find_owners_of_tiles(System& s) {
+  for (Tile& t : s.tiles.tiles)
+    t.first_owner = static_cast<Index>(std::lower_bound(s.owners.begin(), s.owners.end(), t.begin) - s.owners.begin());
+}
+
+/// What of the bonds' lengths is needed later, and the viscosity's lengths.
+void measure_bonds(System& s, const std::vector<Index>& material_of) {
+  s.shortest_length = shortest_length(s.d);
+  const std::vector<double> h = shortest_bonds(s.d);
+  for (MaterialRange& r : s.ranges) r.shortest_bond = *std::min_element(h.begin() + r.begin, h.begin() + r.end);
   const bool viscous = std::any_of(s.materials.begin(), s.materials.end(), [](const Material& m) {
     return m.viscosity.linear > 0.0 || m.viscosity.quadratic > 0.0;
   });
   if (!viscous) return;
-  const std::vector<double> h = shortest_bonds(s.d);
   for (std::size_t a = 0; a < h.size(); ++a)
     s.viscosity.push_back(viscosity_law(s.materials[static_cast<std::size_t>(material_of[a])], h[a]));
 }
 
 }  // namespace
 
-System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of) {
+System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of,
+                   Index particles_per_tile) {
   System s;
   s.d = std::move(d);
   s.materials = std::move(materials);
@@ -89,7 +99,10 @@ System make_system(Discretization d, std::vector<Material> materials, const std:
   }
   group_owners(s);
   transpose_closure(s);
-  prepare_viscosity(s, material_of);
+  measure_bonds(s, material_of);
+  s.tiles = make_tiles(s.d, s.ranges, particles_per_tile > 0 ? particles_per_tile : tile_size(s.particles()));
+  find_owners_of_tiles(s);
+  s.d.bonds = {};
   return s;
 }
 

@@ -7,6 +7,7 @@
 #include "tessera/laws/material.hpp"
 #include "tessera/laws/viscosity.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
+#include "tessera/mechanics/tiles.hpp"
 
 namespace tessera {
 
@@ -15,6 +16,7 @@ struct MaterialRange {
   Index begin = 0;
   Index end = 0;
   Index material = 0;
+  double shortest_bond = 0.0;  // between particles with a common face [m]
 };
 
 /// A boundary node as the force calculation needs it.
@@ -32,7 +34,9 @@ struct ReturnTerm {
 
 /// Everything that does not change during a run. Nodes are the particles followed by the boundary nodes.
 struct System {
-  Discretization d;
+  Discretization d;  // without its bonds, which the tiles hold
+  Tiles tiles;
+  double shortest_length = 0.0;  // of the bonds between particles and to ghosts [m]
   std::vector<Material> materials;
   std::vector<MaterialRange> ranges;  // ascending, cover all particles
   std::vector<double> mass;           // [kg]
@@ -51,7 +55,8 @@ struct System {
 };
 
 /// Puts a system together. `material_of` gives the material of each particle; equal ones must be consecutive within a
-/// body.
-System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of);
+/// body. `particles_per_tile` zero: tile_size().
+System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of,
+                   Index particles_per_tile = 0);
 
 }  // namespace tessera

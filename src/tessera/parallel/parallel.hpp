@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "tessera/base/index.hpp"
@@ -47,6 +48,24 @@ void for_each(std::int64_t n, Body&& body) {
   for_ranges(0, n, [&body](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) body(i);
   });
+}
+
+/// Calls body(task) for every task in [0, tasks), each a piece of work about as large as a block.
+template <class Body>
+void for_tasks(std::int64_t tasks, Body&& body) {
+  detail::run_blocks(
+      tasks, [](void* p, std::int64_t task) { (*static_cast<std::remove_reference_t<Body>*>(p))(task); },
+      const_cast<void*>(static_cast<const void*>(&body)));
+}
+
+/// Sums task_value(task) over [0, tasks), the same bits for any number of threads.
+template <class T, class TaskValue>
+T sum_tasks(std::int64_t tasks, TaskValue&& task_value) {
+  std::vector<T> partial(static_cast<std::size_t>(tasks));
+  for_tasks(tasks, [&](std::int64_t task) { partial[static_cast<std::size_t>(task)] = task_value(task); });
+  T total{};
+  for (const T& p : partial) total += p;
+  return total;
 }
 
 /// Sums range_value(begin, end) over consecutive ranges of [first, last), the same bits for any number of threads.

@@ -46,11 +46,11 @@ Findings examine(const Case& c) {
   f.setup_seconds = seconds_since(start);
   const Discretization& d = model.system.d;
   f.particles = d.particles();
-  f.bonds = d.bonds.size() / 2;
+  f.bonds = model.system.tiles.bonds / 2;
   f.boundary_faces = model.boundary_faces;
   f.constrained = static_cast<std::int64_t>(d.nodes.size() + d.constraints.size());
   f.volume = d.body_volume;
-  f.shortest = shortest_length(d);
+  f.shortest = model.system.shortest_length;
   f.identities = model.identities;
   // The control of a copy that is never refused: check also tells the limit to those whose fixed step is too long.
   TimeSpec spec = c.time;

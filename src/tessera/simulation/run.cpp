@@ -183,7 +183,7 @@ void Run::summarise(const std::string& status, const std::string& message) {
   s.status = status;
   s.message = message;
   s.particles = model_->system.particles();
-  s.bonds = model_->system.d.bonds.size() / 2;
+  s.bonds = model_->system.tiles.bonds / 2;
   s.boundary_faces = model_->boundary_faces;
   s.steps = engine_->steps();
   s.dt = engine_->dt();

@@ -32,7 +32,7 @@ TEST_P(SpectralEstimate, AgreesWithTheDenseEigenvalue) {
                            (GetParam().method == Method::variational && s.d.nodes.empty());
     const double below = potential ? 0.01 : 1e-4, above = potential ? 0.01 : 0.06;
     for (int repeat = 0; repeat < 2; ++repeat) {
-      const double omega = estimator.largest_frequency(reference_state(s), resting_walls(s), shortest_length(s.d));
+      const double omega = estimator.largest_frequency(reference_state(s), resting_walls(s), s.shortest_length);
       EXPECT_GT(omega, expected * (1.0 - below)) << "seed " << seed;
       EXPECT_LT(omega, expected * (1.0 + above)) << "seed " << seed;
     }
@@ -93,7 +93,7 @@ TEST(SpectralLimit, SeparatesStableFromUnstableSteps) {
     const System s = system_of(discretize(method, box({1, 1, 1}), {3, 3, 3}, 0.2, 3, nothing), rubber());
     SpectralEstimator estimator(s);
     const double limit =
-        stable_step(s, estimator.largest_frequency(reference_state(s), resting_walls(s), shortest_length(s.d)));
+        stable_step(s, estimator.largest_frequency(reference_state(s), resting_walls(s), s.shortest_length));
     EXPECT_LT(growth(s, 0.95 * limit, 2000), 100.0) << name_of(method);
     EXPECT_GT(growth(s, 1.05 * limit, 2000), 1e4) << name_of(method);
   }
@@ -105,7 +105,7 @@ TEST(SpectralLimit, KnowsLinearViscosity) {
   m.viscosity = {0.3, 0.0};
   const System s = system_of(discretize(Method::consistent, box({1, 1, 1}), {3, 3, 3}, 0.0, 3, nothing), m);
   SpectralEstimator estimator(s);
-  const double omega = estimator.largest_frequency(reference_state(s), resting_walls(s), shortest_length(s.d));
+  const double omega = estimator.largest_frequency(reference_state(s), resting_walls(s), s.shortest_length);
   const double limit = stable_step(s, omega);
   EXPECT_LT(limit, 2.0 / omega);
   EXPECT_LT(growth(s, 0.95 * limit, 2000), 100.0);

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tessera/laws/bond_law.hpp"
+#include "tessera/laws/neo_hookean_lanes.hpp"
 #include "tessera/laws/viscosity.hpp"
 
 namespace tessera {
@@ -203,6 +204,31 @@ TEST(Viscosity, DissipatesAndIsObjective) {
     const Mat3 turned = viscous_stress(law, Q * F, Q * rate + spin * (Q * F));
     EXPECT_LT(size_of(turned - Q * P), 1e-12 * size_of(P));
   }
+}
+
+/// Four deformations at once give what one at a time does.
+TEST(Lanes, AgreeWithOneAtATime) {
+  const std::vector<Mat3> all = deformations();
+  for (const NeoHookean& law : samples<NeoHookean>())
+    for (std::size_t i = 0; i + 4 <= all.size(); ++i) {
+      Lanes9 F;
+      Double4* const lanes[9] = {&F.xx, &F.xy, &F.xz, &F.yx, &F.yy, &F.yz, &F.zx, &F.zy, &F.zz};
+      for (int k = 0; k < 4; ++k)
+        for (int c = 0; c < 9; ++c)
+          (*lanes[c])[k] = all[i + static_cast<std::size_t>(k)].m[static_cast<std::size_t>(c)];
+      const LanesResponse r = response(law, F);
+      const Double4* const stress[9] = {&r.stress.xx, &r.stress.xy, &r.stress.xz, &r.stress.yx, &r.stress.yy,
+                                        &r.stress.yz, &r.stress.zx, &r.stress.zy, &r.stress.zz};
+      for (int k = 0; k < 4; ++k) {
+        const Mat3& F_k = all[i + static_cast<std::size_t>(k)];
+        const NeoHookean::Response expected = law.response(F_k);
+        EXPECT_NEAR(r.energy[k], expected.energy, 1e-13 * law.mu);
+        EXPECT_NEAR(r.J[k], determinant(F_k), 1e-14);
+        for (int c = 0; c < 9; ++c)
+          EXPECT_NEAR((*stress[c])[k], expected.stress.m[static_cast<std::size_t>(c)],
+                      1e-13 * size_of(expected.stress) + 1e-13 * law.mu);
+      }
+    }
 }
 
 }  // namespace

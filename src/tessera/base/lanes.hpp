@@ -1,0 +1,60 @@
+#pragma once
+
+namespace tessera {
+
+/// Four numbers in one register. Alone it holds the components of a vector and a zero; in a Lanes3 or Lanes9 the same
+/// component of four vectors or tensors. Arrays of it are Fields: the compiler takes its alignment for granted.
+using Double4 = double __attribute__((vector_size(32)));
+
+using Mask4 = long long __attribute__((vector_size(32)));
+
+/// Four vectors, component by component.
+struct Lanes3 {
+  Double4 x{}, y{}, z{};
+};
+
+/// Four tensors, component by component; rc is row r, column c.
+struct Lanes9 {
+  Double4 xx{}, xy{}, xz{}, yx{}, yy{}, yz{}, zx{}, zy{}, zz{};
+};
+
+inline double sum(const Double4& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
+
+/// From four vectors (x, y, z, anything) to their components.
+inline Lanes3 transposed(const Double4& v0, const Double4& v1, const Double4& v2, const Double4& v3) {
+  const Double4 xz01 = __builtin_shuffle(v0, v1, Mask4{0, 4, 2, 6}),
+                xz23 = __builtin_shuffle(v2, v3, Mask4{0, 4, 2, 6});
+  const Double4 y01 = __builtin_shuffle(v0, v1, Mask4{1, 5, 3, 7}), y23 = __builtin_shuffle(v2, v3, Mask4{1, 5, 3, 7});
+  return {__builtin_shuffle(xz01, xz23, Mask4{0, 1, 4, 5}), __builtin_shuffle(y01, y23, Mask4{0, 1, 4, 5}),
+          __builtin_shuffle(xz01, xz23, Mask4{2, 3, 6, 7})};
+}
+
+/// The sum of the four vectors, with a zero at the end.
+inline Double4 sum(const Lanes3& l) {
+  const Double4 zero{};
+  const Double4 xy = __builtin_shuffle(l.x, l.y, Mask4{0, 4, 2, 6}) + __builtin_shuffle(l.x, l.y, Mask4{1, 5, 3, 7});
+  const Double4 z0 = __builtin_shuffle(l.z, zero, Mask4{0, 4, 2, 6}) + __builtin_shuffle(l.z, zero, Mask4{1, 5, 3, 7});
+  return __builtin_shuffle(xy, z0, Mask4{0, 1, 4, 5}) + __builtin_shuffle(xy, z0, Mask4{2, 3, 6, 7});
+}
+
+/// Natural logarithms of positive, finite, normal numbers, to one unit in the last place; of others the result has no
+/// meaning. With x = 2^k (1 + f), 1 + f between 1/sqrt 2 and sqrt 2, and s = f / (2 + f), the series of ln((1+s)/(1-s))
+/// in s is fitted by a polynomial whose coefficients are those of Sun's fdlibm.
+inline Double4 log(const Double4& x) {
+  using Bits = unsigned long long __attribute__((vector_size(32)));
+  constexpr unsigned long long root_half = 0x3FE6A09E667F3BCDULL, bias = 1024, two52_bits = 0x4330000000000000ULL;
+  constexpr double two52 = 0x1p52;
+  const Bits bits = reinterpret_cast<Bits>(x);
+  const Bits biased = (bits - root_half + (bias << 52U)) >> 52U;  // k + bias
+  const Double4 k = reinterpret_cast<Double4>(biased | two52_bits) - (two52 + static_cast<double>(bias));
+  const Double4 f = reinterpret_cast<Double4>(bits - ((biased - bias) << 52U)) - 1.0;
+  const Double4 s = f / (2.0 + f), z = s * s, w = z * z;
+  const Double4 even = w * (0.3999999999940941908 + w * (0.2222219843214978396 + w * 0.1531383769920937332));
+  const Double4 odd = z * (0.6666666666666735130 +
+                           w * (0.2857142874366239149 + w * (0.1818357216161805012 + w * 0.1479819860511658591)));
+  const Double4 half_square = 0.5 * f * f;
+  constexpr double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10;
+  return k * ln2_high - ((half_square - (s * (half_square + (even + odd)) + k * ln2_low)) - f);
+}
+
+}  // namespace tessera

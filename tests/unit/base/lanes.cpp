@@ -1,0 +1,44 @@
+#include "tessera/base/lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace tessera {
+namespace {
+
+Double4 four(double a, double b, double c, double d) { return Double4{a, b, c, d}; }
+
+TEST(Lanes, LogarithmIsExactToOneUnitInTheLastPlace) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> near_one(0.5, 2.0), exponent(-300.0, 300.0);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = i % 2 == 0 ? near_one(random) : std::pow(10.0, exponent(random));
+    const double y = i % 4 == 0 ? 1.0 + 1e-6 * (x - 1.0) : x;
+    const Double4 ln = log(four(x, y, 1.0 / x, 1.0));
+    const double last_place = std::abs(std::nextafter(std::log(x), 1e9) - std::log(x));
+    EXPECT_LE(std::abs(ln[0] - std::log(x)), last_place) << x;
+    EXPECT_LE(std::abs(ln[1] - std::log(y)), std::abs(std::nextafter(std::log(y), 1e9) - std::log(y))) << y;
+    EXPECT_EQ(ln[3], 0.0);
+  }
+}
+
+TEST(Lanes, TransposesAndAddsFourVectors) {
+  const Double4 a = four(1, 2, 3, 9), b = four(4, 5, 6, 9), c = four(7, 8, 9, 9), d = four(10, 11, 12, 9);
+  const Lanes3 l = transposed(a, b, c, d);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(l.x[k], 1 + 3 * k);
+    EXPECT_EQ(l.y[k], 2 + 3 * k);
+    EXPECT_EQ(l.z[k], 3 + 3 * k);
+  }
+  const Double4 s = sum(l);
+  EXPECT_EQ(s[0], 22);
+  EXPECT_EQ(s[1], 26);
+  EXPECT_EQ(s[2], 30);
+  EXPECT_EQ(s[3], 0);
+  EXPECT_EQ(sum(a), 15);
+}
+
+}  // namespace
+}  // namespace tessera

@@ -1,0 +1,126 @@
+#include "tessera/mechanics/tiles.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/small_bodies.hpp"
+
+namespace tessera::test {
+namespace {
+
+/// Every bond is in its particle's tile once, under the local numbers of both ends and with its own data.
+TEST(Tiles, HoldEveryBondOnce) {
+  const Discretization d = discretize(Method::consistent, box({1, 1, 1}), {5, 4, 6}, 0.25, 3, mixed);
+  const Tiles t = make_tiles(d, {{0, d.particles(), 0}}, 17);
+  ASSERT_EQ(t.size(), (d.particles() + 16) / 17);
+  ASSERT_EQ(t.bonds, d.bonds.size());
+  for (Index k = 0; k < t.size(); ++k) {
+    const Tile& tile = t.tiles[static_cast<std::size_t>(k)];
+    const auto global = [&](Index local) {
+      return local < tile.size() ? tile.begin + local : t.rim[static_cast<std::size_t>(tile.rim + local - tile.size())];
+    };
+    Offset bond = tile.bond, lane = tile.lane;
+    for (Index a = tile.begin; a < tile.end; ++a) {
+      ASSERT_EQ(t.count[static_cast<std::size_t>(a)], d.bonds.end(a) - d.bonds.begin(a));
+      for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i, ++bond, ++lane) {
+        const auto b = static_cast<std::size_t>(i);
+        EXPECT_EQ(global(t.neighbour[static_cast<std::size_t>(lane)]), d.bonds.neighbour[b]);
+        EXPECT_EQ(t.area_over_length[static_cast<std::size_t>(lane)], d.bonds.area_over_length[b]);
+        EXPECT_EQ(t.B[static_cast<std::size_t>(bond)], d.bonds.B_ab[b]);
+      }
+      for (; (lane - tile.lane) % 4 != 0; ++lane) EXPECT_EQ(t.area_over_length[static_cast<std::size_t>(lane)], 0.0);
+    }
+    EXPECT_EQ(bond, t.end_of(k).bond);
+    EXPECT_EQ(lane, t.end_of(k).lane);
+  }
+}
+
+/// A position in a rim is listed with the particle that is there.
+TEST(Tiles, KnowWhereAParticleIsInTheRims) {
+  const Discretization d = discretize(Method::consistent, box({1, 1, 1}), {5, 4, 6}, 0.25, 3, nothing);
+  const Tiles t = make_tiles(d, {{0, d.particles(), 0}}, 17);
+  ASSERT_FALSE(t.rim.empty());
+  ASSERT_EQ(t.rim_place.size(), t.rim.size());
+  for (Index a = 0; a < d.particles(); ++a)
+    for (Offset i = t.rim_offset[static_cast<std::size_t>(a)]; i < t.rim_offset[static_cast<std::size_t>(a) + 1]; ++i)
+      EXPECT_EQ(t.rim[static_cast<std::size_t>(t.rim_place[static_cast<std::size_t>(i)])], a);
+}
+
+TEST(Tiles, DoNotCrossMaterials) {
+  const Discretization d = discretize(Method::consistent, box({1, 1, 1}), {4, 4, 4}, 0.25, 3, nothing);
+  const Tiles t = make_tiles(d, {{0, 30, 0}, {30, 64, 1}}, 20);
+  for (Index k = 0; k < t.size(); ++k) {
+    const Tile& tile = t.tiles[static_cast<std::size_t>(k)];
+    EXPECT_EQ(tile.material, tile.begin < 30 ? 0 : 1);
+    EXPECT_TRUE(tile.end <= 30 || tile.begin >= 30);
+  }
+}
+
+class TileSizes : public testing::TestWithParam<Method> {};
+
+/// Forces, stresses, reactions and sums are those of one tile that holds everything.
+TEST_P(TileSizes, DoNotChangeWhatComesOut) {
+  const Discretization d = discretize(GetParam(), box({1, 1, 1}), {4, 4, 4}, 0.1, 3, mixed);
+  Material m = rubber();
+  m.viscosity = {0.3, 0.2};
+  const System one = system_of(d, m, d.particles()), many = system_of(d, m, 9);
+  ASSERT_EQ(one.tiles.size(), 1);
+  ASSERT_GT(many.tiles.size(), 6);
+  const std::vector<Vec3> walls = walls_of(one, wavy);
+  const auto evaluated = [&](const System& s, Forces& forces) {
+    State state = reference_state(s);
+    forces.evaluate(state, {walls, {}, {0.0, 0.0, -9.81}}, 0.0);
+    move(state, s, wavy);
+    forces.evaluate(state, {walls, {}, {0.0, 0.0, -9.81}}, 1e-3);
+    return forces.internal(state);
+  };
+  Forces of_one(one), of_many(many);
+  const Forces::Internal expected = evaluated(one, of_one), internal = evaluated(many, of_many);
+  double f_scale = 0.0, P_scale = 0.0;
+  for (std::size_t a = 0; a < d.X.size(); ++a) {
+    f_scale = std::max(f_scale, norm(to_vec3(of_one.total()[a])));
+    P_scale = std::max(P_scale, std::sqrt(contract(to_mat3(expected.P[a]), to_mat3(expected.P[a]))));
+  }
+  ASSERT_GT(f_scale, 0.0);
+  for (std::size_t a = 0; a < d.X.size(); ++a) {
+    EXPECT_LT(norm(to_vec3(of_many.total()[a] - of_one.total()[a])), 1e-13 * f_scale);
+    EXPECT_LT(norm(to_vec3(internal.force[a] - expected.force[a])), 1e-13 * f_scale);
+    const Mat3 difference = to_mat3(internal.P[a]) - to_mat3(expected.P[a]);
+    EXPECT_LT(std::sqrt(contract(difference, difference)), 1e-13 * P_scale);
+  }
+  for (std::size_t f = 0; f < walls.size(); ++f)
+    EXPECT_LT(norm(of_many.reactions()[f] - of_one.reactions()[f]), 1e-12 * f_scale);
+  EXPECT_NEAR(of_many.sums().internal, of_one.sums().internal, 1e-13 * of_one.sums().internal);
+  EXPECT_NEAR(of_many.sums().contact, of_one.sums().contact, 1e-13 * of_one.sums().contact);
+  EXPECT_NEAR(of_many.sums().dissipated, of_one.sums().dissipated, 1e-13 * of_one.sums().dissipated);
+  EXPECT_EQ(of_many.sums().smallest_J, of_one.sums().smallest_J);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TileSizes,
+                         testing::Values(Method::delaunay, Method::consistent, Method::variational,
+                                         Method::quasi_static),
+                         [](const auto& method) { return name_of(method.param); });
+
+/// A deformation that has lost all meaning is noticed wherever it is.
+TEST(StressSums, NoticeWhatIsNotFiniteAndWhatIsInverted) {
+  const System s = system_of(discretize(Method::consistent, box({1, 1, 1}), {4, 4, 4}, 0.1, 3, nothing), rubber());
+  for (const std::size_t a : {std::size_t{0}, std::size_t{37}, s.d.X.size() - 1}) {
+    Forces forces(s);
+    State state = reference_state(s);
+    state.x[a][1] = std::numeric_limits<double>::quiet_NaN();
+    forces.evaluate(state, {{}, {}, {}}, 0.0);
+    EXPECT_FALSE(forces.sums().finite);
+
+    state = reference_state(s);
+    const Vec3 X_a = s.d.X[a];
+    for (Double4& x : state.x)  // turns the neighbourhood inside out and leaves the rest alone
+      if (norm(to_vec3(x) - X_a) < 0.6) x[2] = 2.0 * X_a.z - x[2];
+    forces.evaluate(state, {{}, {}, {}}, 0.0);
+    EXPECT_TRUE(forces.sums().finite);
+    EXPECT_LT(forces.sums().smallest_J, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace tessera::test
