@@ -80,40 +80,6 @@ void remove_unused_vertices(TriangleSurface& surface) {
     for (Index& v : t) v = number[static_cast<std::size_t>(v)];
 }
 
-/// Keeps the triangles for which keep[t] holds, in their order.
-void keep_triangles(FileSurface& file, const std::vector<bool>& keep) {
-  TriangleSurface& surface = file.surface;
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < keep.size(); ++t) {
-    if (!keep[t]) continue;
-    surface.triangles[kept] = surface.triangles[t];
-    surface.side[kept] = surface.side[t];
-    if (!file.place.empty()) file.place[kept] = file.place[t];
-    ++kept;
-  }
-  surface.triangles.resize(kept);
-  surface.side.resize(kept);
-  if (!file.place.empty()) file.place.resize(kept);
-}
-
-/// Twice the area over the longest edge: the least distance of a corner from the opposite edge.
-double thickness(const std::array<Vec3, 3>& corners) {
-  const auto& [a, b, c] = corners;
-  const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
-  return longest > 0 ? norm(cross(b - a, c - a)) / longest : 0.0;
-}
-
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
-}
-
-/// Do the vertices, sorted, come in the triangle's sense of rotation?
-bool is_even(const Triangle& t) {
-  const auto least = static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
-  return t[(least + 1) % 3] < t[(least + 2) % 3];
-}
-
 }  // namespace
 
 double weld_tolerance(const TriangleSurface& surface) {
@@ -148,38 +114,6 @@ void weld_vertices(TriangleSurface& surface, SurfaceRepairs& repairs) {
   for (Triangle& t : surface.triangles)
     for (Index& v : t) v = number[static_cast<std::size_t>(v)];
   remove_unused_vertices(surface);
-}
-
-void drop_needless_triangles(FileSurface& file, SurfaceRepairs& repairs) {
-  const TriangleSurface& surface = file.surface;
-  std::vector<bool> keep(surface.triangles.size(), true);
-  std::vector<std::pair<Triangle, Index>> order;
-  for (Index t = 0; t < surface.size(); ++t) {
-    if (thickness(surface.corners(t)) > repairs.tolerance) {
-      order.emplace_back(sorted(surface.triangle(t)), t);
-    } else {
-      keep[static_cast<std::size_t>(t)] = false;
-      ++repairs.flat_triangles;
-    }
-  }
-  std::sort(order.begin(), order.end());
-  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
-    std::array<Index, 2> facing{};  // how many look either way
-    for (; last < order.size() && order[last].first == order[first].first; ++last)
-      ++facing[is_even(surface.triangle(order[last].second)) ? 1 : 0];
-    const auto many = static_cast<Index>(last - first), pairs = std::min(facing[0], facing[1]);
-    const bool keeps_one = facing[0] != facing[1], keeps_even = facing[1] > facing[0];
-    repairs.back_to_back += pairs;
-    repairs.doubled_triangles += many - 2 * pairs - (keeps_one ? 1 : 0);
-    bool is_kept = false;
-    for (std::size_t i = first; i < last; ++i) {
-      const Index t = order[i].second;
-      const bool takes = keeps_one && !is_kept && is_even(surface.triangle(t)) == keeps_even;
-      keep[static_cast<std::size_t>(t)] = takes;
-      is_kept = is_kept || takes;
-    }
-  }
-  keep_triangles(file, keep);
 }
 
 void turn_contrary_triangles(FileSurface& file, SurfaceRepairs& repairs) {

@@ -10,9 +10,9 @@ struct SurfaceRepairs {
   Index moved_vertices = 0;     // welded to another vertex that was near, but not in the same place
   Index flat_triangles = 0;     // dropped: without area, or thinner than the tolerance
   Index doubled_triangles = 0;  // dropped: there already
-  Index back_to_back = 0;       // dropped: pairs of triangles on the same vertices that face each other
-  Index split_triangles = 0;    // divided because a vertex of a neighbour lay on their edge
-  Index turned_triangles = 0;   // turned round to agree with their neighbours
+  Index back_to_back = 0;  // dropped: pairs of triangles on the same vertices that face each other, as touching walls
+  Index split_triangles = 0;   // divided because a vertex of a neighbour lay on their edge
+  Index turned_triangles = 0;  // turned round to agree with their neighbours
 
   bool any() const {
     return moved_vertices + flat_triangles + doubled_triangles + back_to_back + split_triangles + turned_triangles > 0;
@@ -26,7 +26,8 @@ double weld_tolerance(const TriangleSurface& surface);
 /// Makes one vertex of those that are nearer to each other than repairs.tolerance and removes unused ones.
 void weld_vertices(TriangleSurface& surface, SurfaceRepairs& repairs);
 
-/// Drops triangles that are thinner than repairs.tolerance, doubled, or back to back with another.
+/// Drops triangles that are thinner than repairs.tolerance, doubled, or back to back with another. Of faces that have
+/// triangles for both their sides one stays where it closes the surface.
 void drop_needless_triangles(FileSurface& file, SurfaceRepairs& repairs);
 
 /// Divides triangles at vertices of open edges that lie on their open edges, so that neighbours share whole edges.

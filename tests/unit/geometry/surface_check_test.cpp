@@ -124,6 +124,22 @@ TEST(SurfaceCheck, PartsThatShareAWallBecomeOne) {
   EXPECT_DOUBLE_EQ(volume(checked.surface), 2);
 }
 
+TEST(SurfaceCheck, FacesWithTwoSidesKeepOne) {
+  TriangleSurface ball = ball_surface(1, 6, 8);
+  for (const std::size_t t : {0u, 1u, 2u, 20u, 21u, 40u}) {
+    const Triangle old = ball.triangles[t];
+    add_triangle(ball, {old[0], old[2], old[1]});
+  }
+  const CheckedSurface some = check_surface(file_of(ball));
+  EXPECT_EQ(some.repairs.doubled_triangles, 6);
+  EXPECT_EQ(some.repairs.back_to_back, 0);
+  EXPECT_NEAR(volume(some.surface), volume(ball_surface(1, 6, 8)), 1e-14);
+
+  TriangleSurface all = ball_surface(1, 6, 8);
+  all = both(all, turned(all));
+  EXPECT_NEAR(volume(check_surface(file_of(all)).surface), volume(ball_surface(1, 6, 8)), 1e-14);
+}
+
 TEST(SurfaceCheck, SplitsTrianglesAtVerticesOnTheirEdges) {
   TriangleSurface box = box_surface({0, 0, 0}, {1, 1, 1});
   // The edge from vertex 0 to 1 gets two more vertices, which only the bottom knows.
