@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "tessera/base/error.hpp"
-#include "tessera/parallel/collect.hpp"
+#include "tessera/parallel/parallel.hpp"
 #include "tessera/parallel/workspaces.hpp"
 #include "tessera/tessellation/cells.hpp"
 #include "tessera/tessellation/voronoi_cutter.hpp"
@@ -51,6 +51,12 @@ struct CellSums {
   std::vector<MergedFace> faces;
   double volume = 0.0;
   Vec3 moment;  // volume times centroid [m4]
+
+  void clear() {
+    faces.clear();
+    volume = 0.0;
+    moment = {};
+  }
 };
 
 void add_face(CellSums& sums, Index tag, const FlatFace& face) {
@@ -80,26 +86,41 @@ std::string named(std::span<const Vec3> points, Index a) {
   return fmt::format("particle {} at ({:g}, {:g}, {:g}) m", a, X.x, X.y, X.z);
 }
 
-/// One face of a cell before interior and boundary ones part: the particle or side behind it.
-struct TaggedFace {
-  Index tag = 0;
-  Vec3 area;
-  Vec3 centroid;
+/// Room for the interior faces of a cell that it shares with higher particles, on average.
+constexpr std::size_t kExpectedFaces = 8;
+/// Blocks of cells whose faces are kept apart for a while, before they join the others.
+constexpr std::int64_t kBatch = 128 * parallel::block_size;
+
+/// The faces of consecutive cells.
+struct Faces {
+  std::vector<InteriorFace> interior;
+  std::vector<BoundaryFace> boundary;
+};
+
+/// Where one block's faces go.
+struct Place {
+  std::size_t interior = 0, boundary = 0;
+};
+
+/// What one thread works with.
+struct Workspace {
+  VoronoiCutter cutter;
+  CellSums sums;
 };
 
 class Assembly {
  public:
   Assembly(std::span<const Vec3> points, const Solid& solid)
-      : points_(points), cutters_([points, &solid] { return std::make_unique<VoronoiCutter>(points, solid); }) {}
+      : points_(points), grid_(VoronoiCutter::grid_of(points, solid)), workspaces_([this, &solid] {
+          return std::unique_ptr<Workspace>(new Workspace{VoronoiCutter(points_, solid, grid_), {}});
+        }) {}
 
   Cells assemble() {
     cells_.volume.resize(points_.size());
     cells_.centroid.resize(points_.size());
-    Csr<TaggedFace> rows = parallel::collect_rows<TaggedFace>(
-        static_cast<Index>(points_.size()),
-        [this](Index a, parallel::RowCollector<TaggedFace>& out) { add_cell(a, out); });
-    sort_out(rows);
-    rows = {};
+    cells_.interior.reserve(kExpectedFaces * points_.size());
+    const auto n = static_cast<std::int64_t>(points_.size());
+    for (std::int64_t first = 0; first < n; first += kBatch) add_cells(first, std::min(first + kBatch, n));
     close_cells();
     return std::move(cells_);
   }
@@ -107,35 +128,62 @@ class Assembly {
  private:
   const Vec3& point(Index a) const { return points_[static_cast<std::size_t>(a)]; }
 
+  /// Cuts the cells first .. last and appends their faces.
+  void add_cells(std::int64_t first, std::int64_t last) {
+    std::vector<Faces> blocks(
+        static_cast<std::size_t>((last - first + parallel::block_size - 1) / parallel::block_size));
+    const auto block = [&](std::int64_t begin) {
+      return static_cast<std::size_t>((begin - first) / parallel::block_size);
+    };
+    parallel::for_ranges(first, last, [&](std::int64_t begin, std::int64_t end) {
+      const parallel::Workspaces<Workspace>::Lease workspace(workspaces_);
+      Faces& faces = blocks[block(begin)];
+      faces.interior.reserve(kExpectedFaces * parallel::block_size);
+      for (auto a = static_cast<Index>(begin); a < static_cast<Index>(end); ++a) add_cell(a, *workspace, faces);
+    });
+    std::vector<Place> places;
+    Place end{cells_.interior.size(), cells_.boundary.size()};
+    for (const Faces& faces : blocks) {
+      places.push_back(end);
+      end.interior += faces.interior.size();
+      end.boundary += faces.boundary.size();
+    }
+    cells_.interior.resize(end.interior);
+    cells_.boundary.resize(end.boundary);
+    parallel::for_ranges(first, last, [&](std::int64_t begin, std::int64_t) {
+      const Faces& faces = blocks[block(begin)];
+      const Place& place = places[block(begin)];
+      std::copy(faces.interior.begin(), faces.interior.end(),
+                cells_.interior.begin() + static_cast<std::ptrdiff_t>(place.interior));
+      std::copy(faces.boundary.begin(), faces.boundary.end(),
+                cells_.boundary.begin() + static_cast<std::ptrdiff_t>(place.boundary));
+    });
+  }
+
   /// The lower of two particles computes their common face; both cells then use the same numbers.
-  void add_cell(Index a, parallel::RowCollector<TaggedFace>& out) {
-    const parallel::Workspaces<VoronoiCutter>::Lease cutter(cutters_);
-    CellSums sums;
-    for (const ConvexPolyhedron& part : cutter->cut(a)) add_part(sums, part, point(a));
+  void add_cell(Index a, Workspace& workspace, Faces& out) {
+    CellSums& sums = workspace.sums;
+    sums.clear();
+    for (const ConvexPolyhedron& part : workspace.cutter.cut(a)) add_part(sums, part, point(a));
     if (!(sums.volume > 0.0))
       throw GeometryError("the Voronoi cell of " + named(points_, a) +
                           " is empty; is it in the solid, and there only once?");
     const double smallest = kRoundoffFace * std::cbrt(sums.volume * sums.volume);
     std::sort(sums.faces.begin(), sums.faces.end(),
               [](const MergedFace& f, const MergedFace& g) { return rank(f.tag) < rank(g.tag); });
-    for (const MergedFace& face : sums.faces)
-      if (face.size >= smallest && (VoronoiCutter::is_side(face.tag) || face.tag > a))
-        out.add({face.tag, face.area, point(a) + face.centroid()});
+    for (const MergedFace& face : sums.faces) {
+      if (face.size < smallest) continue;
+      if (VoronoiCutter::is_side(face.tag))
+        out.boundary.push_back({a, VoronoiCutter::side_of(face.tag), face.area, point(a) + face.centroid()});
+      else if (face.tag > a)
+        out.interior.push_back({a, face.tag, face.area, point(a) + face.centroid()});
+    }
     cells_.volume[static_cast<std::size_t>(a)] = sums.volume;
     cells_.centroid[static_cast<std::size_t>(a)] = point(a) + sums.moment / sums.volume;
   }
 
   /// Neighbours and sides in ascending order.
   static Index rank(Index tag) { return VoronoiCutter::is_side(tag) ? VoronoiCutter::side_of(tag) : tag; }
-
-  void sort_out(const Csr<TaggedFace>& rows) {
-    for (Index a = 0; a < rows.rows(); ++a)
-      for (const TaggedFace& face : rows.row(a))
-        if (VoronoiCutter::is_side(face.tag))
-          cells_.boundary.push_back({a, VoronoiCutter::side_of(face.tag), face.area, face.centroid});
-        else
-          cells_.interior.push_back({a, face.tag, face.area, face.centroid});
-  }
 
   struct Balance {
     Vec3 area;
@@ -154,23 +202,32 @@ class Assembly {
   /// checks that every cell is closed.
   void close_cells() {
     std::vector<Balance> balances(points_.size());
-    for (const InteriorFace& face : cells_.interior) {
-      add_to_balance(balances, face.a, face.area, face.centroid);
-      add_to_balance(balances, face.b, -face.area, face.centroid);
-    }
-    for (const BoundaryFace& face : cells_.boundary) add_to_balance(balances, face.owner, face.area, face.centroid);
-    for (std::size_t a = 0; a < points_.size(); ++a) {
-      const Balance& balance = balances[a];
-      if (norm(balance.area) > kClosed * balance.surface ||
-          std::abs(balance.volume - cells_.volume[a]) > kClosed * cells_.volume[a])
-        throw GeometryError("the Voronoi cell of " + named(points_, static_cast<Index>(a)) +
-                            " does not close; are particles there closer than round-off to each other or to a wall?");
-      cells_.volume[a] = balance.volume;
-    }
+    for (const InteriorFace& face : cells_.interior) add_to_balance(balances, face.b, -face.area, face.centroid);
+    parallel::for_ranges(0, static_cast<std::int64_t>(points_.size()), [&](std::int64_t begin, std::int64_t end) {
+      const auto first = static_cast<Index>(begin), last = static_cast<Index>(end);
+      const auto is_before = [](const InteriorFace& face, Index a) { return face.a < a; };
+      const auto is_owned_before = [](const BoundaryFace& face, Index a) { return face.owner < a; };
+      for (auto f = std::lower_bound(cells_.interior.begin(), cells_.interior.end(), first, is_before);
+           f != cells_.interior.end() && f->a < last; ++f)
+        add_to_balance(balances, f->a, f->area, f->centroid);
+      for (auto f = std::lower_bound(cells_.boundary.begin(), cells_.boundary.end(), first, is_owned_before);
+           f != cells_.boundary.end() && f->owner < last; ++f)
+        add_to_balance(balances, f->owner, f->area, f->centroid);
+      for (Index a = first; a < last; ++a) close_cell(a, balances[static_cast<std::size_t>(a)]);
+    });
+  }
+
+  void close_cell(Index a, const Balance& balance) {
+    double& volume = cells_.volume[static_cast<std::size_t>(a)];
+    if (norm(balance.area) > kClosed * balance.surface || std::abs(balance.volume - volume) > kClosed * volume)
+      throw GeometryError("the Voronoi cell of " + named(points_, a) +
+                          " does not close; are particles there closer than round-off to each other or to a wall?");
+    volume = balance.volume;
   }
 
   std::span<const Vec3> points_;
-  parallel::Workspaces<VoronoiCutter> cutters_;
+  PointGrid grid_;
+  parallel::Workspaces<Workspace> workspaces_;
   Cells cells_;
 };
 
@@ -183,7 +240,8 @@ Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid) {
 
 std::vector<Polyhedron> voronoi_polyhedra(std::span<const Vec3> points, const Solid& solid) {
   if (points.empty()) throw GeometryError("there are no particles to make Voronoi cells of");
-  VoronoiCutter cutter(points, solid);
+  const PointGrid grid = VoronoiCutter::grid_of(points, solid);
+  VoronoiCutter cutter(points, solid, grid);
   std::vector<Polyhedron> polyhedra;
   for (Index a = 0; a < static_cast<Index>(points.size()); ++a)
     for (const ConvexPolyhedron& part : cutter.cut(a)) {

@@ -1,6 +1,5 @@
 #include "tessera/tessellation/voronoi_corner.hpp"
 
-#include <cmath>
 #include <functional>
 
 #include "tessera/tessellation/plane_order.hpp"
@@ -10,8 +9,9 @@ namespace {
 
 /// Planes whose unit normals span less volume than this do not fix a point.
 constexpr double kParallel = 1e-9;
+constexpr double kParallel2 = kParallel * kParallel;
 
-/// Three equations normal . x = value.
+/// Three equations normal . x = value. The normals may have any length.
 struct System {
   std::array<Vec3, 3> normal;
   Vec3 value;
@@ -48,12 +48,12 @@ Vec3 corner_position(std::span<const Vec3> points, const Corner& corner, const V
   };
   for (const Index generator : corner.generators().subspan(1)) {
     const Vec3 branch = points[static_cast<std::size_t>(generator)] - base;
-    const double length = norm(branch);
-    add_row(branch / length, 0.5 * length);
+    add_row(branch, 0.5 * norm2(branch));
   }
   for (const Plane& wall : corner.walls()) add_row(wall.normal, -wall.height(base));
   const double determinant = dot(system.normal[0], cross(system.normal[1], system.normal[2]));
-  if (std::abs(determinant) < kParallel) return estimate;
+  const double scale2 = norm2(system.normal[0]) * norm2(system.normal[1]) * norm2(system.normal[2]);
+  if (determinant * determinant < kParallel2 * scale2) return estimate;
   Vec3 x = system.solve(system.value, determinant);
   x += system.solve(system.residual(x), determinant);  // leaves the corner on all planes to round-off
   return base + x;

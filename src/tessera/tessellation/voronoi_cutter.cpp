@@ -96,12 +96,13 @@ std::string named(std::span<const Vec3> points, Index a) {
 
 }  // namespace
 
-VoronoiCutter::VoronoiCutter(std::span<const Vec3> points, const Solid& solid)
+VoronoiCutter::VoronoiCutter(std::span<const Vec3> points, const Solid& solid, const PointGrid& grid)
     : points_(points),
       solid_(solid),
       tolerance_(roundoff(solid)),
       clipper_(tolerance_),
-      nearest_(points, solid.lower, solid.upper, mean_spacing(points, solid)) {
+      nearest_(grid),
+      spacing_(mean_spacing(points, solid)) {
   for (const ConvexPiece& piece : solid.pieces) {
     pieces_.push_back(polyhedron_of(piece, clipper_));
     place_on_walls(piece, pieces_.back());
@@ -111,7 +112,12 @@ VoronoiCutter::VoronoiCutter(std::span<const Vec3> points, const Solid& solid)
   part_piece_.resize(pieces_.size());
 }
 
+PointGrid VoronoiCutter::grid_of(std::span<const Vec3> points, const Solid& solid) {
+  return {points, solid.lower, solid.upper, mean_spacing(points, solid)};
+}
+
 std::span<const ConvexPolyhedron> VoronoiCutter::cut(Index particle) {
+  if (cut_simply(particle)) return {parts_.data(), count_};
   find_parts(particle, 0.0);
   if (has_inner_wall()) {
     find_parts(particle, kTouch * tolerance_);
@@ -121,16 +127,20 @@ std::span<const ConvexPolyhedron> VoronoiCutter::cut(Index particle) {
   for (std::size_t i = 0; i < count_; ++i) {
     const ConvexPiece& piece = solid_.pieces[part_piece_[i]];
     place_corners(particle, &piece, parts_[i]);
-    place_on_walls(piece, parts_[i]);
-    tag_sides(piece, parts_[i]);
+    finish_part(part_piece_[i], parts_[i]);
   }
   return {parts_.data(), count_};
+}
+
+void VoronoiCutter::finish_part(std::size_t piece, ConvexPolyhedron& part) const {
+  place_on_walls(solid_.pieces[piece], part);
+  tag_sides(solid_.pieces[piece], part);
 }
 
 /// The cell is convex, so the line from the particle to any other part of it leaves the part around the particle
 /// through one of that part's walls. Most cells have none. With a margin [m] the cell is that much larger on all sides.
 void VoronoiCutter::find_parts(Index particle, double margin) {
-  nearest_.start(particle);
+  nearest_.start(particle, points_[static_cast<std::size_t>(particle)]);
   const std::size_t home = piece_around(particle);
   count_ = 0;
   const auto add_part = [&](std::size_t piece) {

@@ -3,88 +3,71 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace tessera {
-namespace {
 
-constexpr double kBlockSize = 1.7;  // in spacings: the first shell then holds nearly all points that make a cell
-constexpr double kMostBlocksPerPoint = 8.0;
-
-}  // namespace
-
-NearestPoints::NearestPoints(std::span<const Vec3> points, const Vec3& lower, const Vec3& upper, double spacing)
-    : points_(points), lower_(lower) {
-  const Vec3 size = upper - lower;
-  const double most = kMostBlocksPerPoint * static_cast<double>(points.size());
-  size_ = std::max(kBlockSize * spacing, std::cbrt(size.x * size.y * size.z / most));
-  for (int d = 0; d < 3; ++d) blocks_[static_cast<std::size_t>(d)] = static_cast<int>(std::floor(size[d] / size_)) + 1;
-  std::vector<Index> all(points.size());
-  std::iota(all.begin(), all.end(), 0);
-  const auto row = [&](Index p) {
-    const std::array<int, 3> b = block_of(points_[static_cast<std::size_t>(p)]);
-    return b[0] + blocks_[0] * (b[1] + blocks_[1] * b[2]);
-  };
-  members_ = group_by_row(blocks_[0] * blocks_[1] * blocks_[2], std::span<const Index>(all), row);
-}
-
-std::array<int, 3> NearestPoints::block_of(const Vec3& X) const {
-  std::array<int, 3> block{};
-  for (std::size_t d = 0; d < 3; ++d) {
-    const int axis = static_cast<int>(d);
-    block[d] = std::clamp(static_cast<int>(std::floor((X[axis] - lower_[axis]) / size_)), 0, blocks_[d] - 1);
-  }
-  return block;
-}
-
-bool NearestPoints::is_farther(const Candidate& a, const Candidate& b) {
-  return a.distance > b.distance || (a.distance == b.distance && a.point > b.point);
-}
-
-void NearestPoints::start(Index center) {
+void NearestPoints::start(Index center, const Vec3& X) {
   center_ = center;
-  home_ = block_of(points_[static_cast<std::size_t>(center)]);
+  X_ = X;
+  home_ = grid_.block_of(X);
   shells_ = 0;
   covered_ = 0.0;
-  heap_.clear();
+  sorted2_ = 0.0;
+  known_.clear();
   listed_.clear();
 }
 
-Index NearestPoints::neighbour(std::size_t rank, double reach) {
-  while (listed_.size() <= rank) {
-    const double nearest = heap_.empty() ? std::numeric_limits<double>::infinity() : heap_.front().distance;
-    if (nearest < covered_ && nearest <= reach) {
-      std::pop_heap(heap_.begin(), heap_.end(), is_farther);
-      listed_.push_back(heap_.back());
-      heap_.pop_back();
-    } else if (covered_ <= reach) {
-      add_shell();
-    } else {
-      return -1;
-    }
+/// Lists what is known and within reach, or looks farther. Is there more to list, perhaps?
+bool NearestPoints::list_more(double reach) {
+  // A point at a distance of exactly `reach` counts, one at exactly covered_ may have an unknown companion.
+  const double limit2 =
+      reach < covered_ ? std::nextafter(reach * reach, std::numeric_limits<double>::infinity()) : covered_ * covered_;
+  if (limit2 > sorted2_) {
+    sort_known(limit2);
+    return true;
   }
-  return listed_[rank].distance <= reach ? listed_[rank].point : -1;
+  if (covered_ > reach || covered_ == std::numeric_limits<double>::infinity()) return false;
+  add_shell();
+  return true;
 }
 
+void NearestPoints::sort_known(double limit2) {
+  const auto listed = static_cast<std::ptrdiff_t>(listed_.size());
+  std::size_t kept = 0;
+  for (const Candidate& c : known_)
+    if (c.distance2 < limit2)
+      listed_.push_back(c);
+    else
+      known_[kept++] = c;
+  known_.resize(kept);
+  std::sort(listed_.begin() + listed, listed_.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.point < b.point);
+  });
+  sorted2_ = limit2;
+}
+
+/// Searches the blocks around those searched; to begin with the home block and all that touch it.
 void NearestPoints::add_shell() {
-  const int s = shells_++;
-  for (int k = std::max(home_[2] - s, 0); k <= std::min(home_[2] + s, blocks_[2] - 1); ++k)
-    for (int j = std::max(home_[1] - s, 0); j <= std::min(home_[1] + s, blocks_[1] - 1); ++j) {
-      const bool is_rim = std::abs(k - home_[2]) == s || std::abs(j - home_[1]) == s;
-      const int step = is_rim || s == 0 ? 1 : 2 * s;  // inside the rim only the two ends of a row are new
-      for (int i = home_[0] - s; i <= home_[0] + s; i += step)
-        if (i >= 0 && i < blocks_[0]) add_block(i, j, k);
+  const std::array<int, 3>& blocks = grid_.blocks();
+  const int inner = shells_ - 1;  // blocks up to this distance were searched
+  const int s = std::max(shells_, 1);
+  shells_ = s + 1;
+  for (int k = std::max(home_[2] - s, 0); k <= std::min(home_[2] + s, blocks[2] - 1); ++k)
+    for (int j = std::max(home_[1] - s, 0); j <= std::min(home_[1] + s, blocks[1] - 1); ++j) {
+      const int first = std::max(home_[0] - s, 0), last = std::min(home_[0] + s, blocks[0] - 1);
+      if (std::abs(k - home_[2]) > inner || std::abs(j - home_[1]) > inner) {
+        add_row(first, last, j, k);
+      } else {
+        if (home_[0] - s >= 0) add_row(first, first, j, k);
+        if (home_[0] + s < blocks[0]) add_row(last, last, j, k);
+      }
     }
   update_covered();
 }
 
-void NearestPoints::add_block(int i, int j, int k) {
-  const Vec3& X = points_[static_cast<std::size_t>(center_)];
-  for (const Index p : members_.row(i + blocks_[0] * (j + blocks_[1] * k))) {
-    if (p == center_) continue;
-    heap_.push_back({norm(points_[static_cast<std::size_t>(p)] - X), p});
-    std::push_heap(heap_.begin(), heap_.end(), is_farther);
-  }
+void NearestPoints::add_row(int first, int last, int j, int k) {
+  for (const PointGrid::Entry& e : grid_.row(first, last, j, k))
+    if (e.point != center_) known_.push_back({norm2(e.X - X_), e.point});
 }
 
 /// Distance from the center to the nearest face of the searched blocks behind which there are more blocks.
@@ -92,11 +75,12 @@ void NearestPoints::update_covered() {
   covered_ = std::numeric_limits<double>::infinity();
   for (std::size_t d = 0; d < 3; ++d) {
     const int axis = static_cast<int>(d);
-    const double at = points_[static_cast<std::size_t>(center_)][axis] - lower_[axis];
+    const double at = X_[axis] - grid_.lower()[axis], size = grid_.block_size();
     const int first = home_[d] - shells_ + 1, last = home_[d] + shells_ - 1;
-    if (first > 0) covered_ = std::min(covered_, at - first * size_);
-    if (last < blocks_[d] - 1) covered_ = std::min(covered_, (last + 1) * size_ - at);
+    if (first > 0) covered_ = std::min(covered_, at - first * size);
+    if (last < grid_.blocks()[d] - 1) covered_ = std::min(covered_, (last + 1) * size - at);
   }
+  covered_ = std::max(covered_, 0.0);
 }
 
 }  // namespace tessera

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
-#include "tessera/base/csr.hpp"
-#include "tessera/base/vec3.hpp"
+#include "tessera/tessellation/voronoi_grid.hpp"
 
 namespace tessera {
 
@@ -13,38 +11,39 @@ namespace tessera {
 /// the lower number comes first.
 class NearestPoints {
  public:
-  /// Points in the box lower .. upper, about `spacing` apart [m]. The points must outlive the list.
-  NearestPoints(std::span<const Vec3> points, const Vec3& lower, const Vec3& upper, double spacing);
+  /// The grid must outlive the list.
+  explicit NearestPoints(const PointGrid& grid) : grid_(grid) {}
 
-  /// From now on, lists the neighbours of point `center`.
-  void start(Index center);
+  /// From now on, lists the neighbours of point `center`, which is at X [m].
+  void start(Index center, const Vec3& X);
 
   /// The neighbour after `rank` nearer ones, or -1 when it is farther away than `reach` [m].
-  Index neighbour(std::size_t rank, double reach);
+  Index neighbour(std::size_t rank, double reach) {
+    while (listed_.size() <= rank)
+      if (!list_more(reach)) return -1;
+    return listed_[rank].distance2 <= reach * reach ? listed_[rank].point : -1;
+  }
 
  private:
   struct Candidate {
-    double distance;
+    double distance2;  // [m2]
     Index point;
   };
 
-  std::array<int, 3> block_of(const Vec3& X) const;
+  bool list_more(double reach);
+  void sort_known(double limit2);
   void add_shell();
-  void add_block(int i, int j, int k);
+  void add_row(int first, int last, int j, int k);
   void update_covered();
-  static bool is_farther(const Candidate& a, const Candidate& b);
 
-  std::span<const Vec3> points_;
-  Vec3 lower_;
-  double size_;                  // of a block [m]
-  std::array<int, 3> blocks_{};  // per direction
-  Csr<Index> members_;           // points of every block
-
+  const PointGrid& grid_;
   Index center_ = -1;
+  Vec3 X_;
   std::array<int, 3> home_{};
-  int shells_ = 0;               // of blocks around home_ that were searched
-  double covered_ = 0.0;         // all points nearer than this are known [m]
-  std::vector<Candidate> heap_;  // known, not yet listed
+  int shells_ = 0;                // of blocks around home_ that were searched
+  double covered_ = 0.0;          // all points nearer than this are known [m]
+  double sorted2_ = 0.0;          // all points nearer than the root of this are listed [m2]
+  std::vector<Candidate> known_;  // not yet listed
   std::vector<Candidate> listed_;
 };
 

@@ -74,18 +74,19 @@ TEST(NearestPoints, ListsAllInOrder) {
   std::vector<Vec3> points;
   for (int i = 0; i < 500; ++i)
     points.push_back({std::fmod(0.137 * i, 1.0), std::fmod(0.611 * i, 1.0), std::fmod(0.377 * i * i, 1.0)});
-  NearestPoints nearest(points, {0, 0, 0}, {1, 1, 1}, 0.126);
+  const PointGrid grid(points, {0, 0, 0}, {1, 1, 1}, 0.126);
+  NearestPoints nearest(grid);
   for (const Index center : {0, 123, 499}) {
     std::vector<std::pair<double, Index>> expected;
     for (Index p = 0; p < 500; ++p)
       if (p != center)
         expected.emplace_back(norm(points[static_cast<std::size_t>(p)] - points[static_cast<std::size_t>(center)]), p);
     std::sort(expected.begin(), expected.end());
-    nearest.start(center);
+    nearest.start(center, points[static_cast<std::size_t>(center)]);
     for (std::size_t rank = 0; rank < expected.size(); ++rank)
       ASSERT_EQ(nearest.neighbour(rank, 2.0), expected[rank].second) << rank;
     EXPECT_EQ(nearest.neighbour(499, 1e9), -1);
-    nearest.start(center);
+    nearest.start(center, points[static_cast<std::size_t>(center)]);
     EXPECT_EQ(nearest.neighbour(0, 0.9 * expected[0].first), -1);
     EXPECT_EQ(nearest.neighbour(0, expected[0].first), expected[0].second);
   }
