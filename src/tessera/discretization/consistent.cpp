@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <compare>
 
 #include "tessera/discretization/face_positions.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
 #include "tessera/discretization/voronoi_common.hpp"
-#include "tessera/parallel/collect.hpp"
+#include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
 
@@ -14,115 +15,166 @@ namespace {
 /// A particle that a widened stencil couples to another beyond its nearest neighbours.
 struct DistantPair {
   Index a, b;
+  friend auto operator<=>(const DistantPair&, const DistantPair&) = default;
 };
 
-/// All such pairs, both ways round.
-Csr<DistantPair> distant_pairs(const Csr<FaceOfCell>& faces, const FacePositions& positions, const Cells& cells,
-                               std::span<const Mat3> D) {
-  std::vector<DistantPair> pairs;
-  const auto note = [&](Index a, std::span<const FaceTerm> position) {
-    const auto row = faces.row(a);
-    for (const FaceTerm& t : position) {
-      const bool near = t.particle == a || std::any_of(row.begin(), row.end(),
-                                                       [&](const FaceOfCell& f) { return f.neighbour == t.particle; });
-      if (!near) pairs.push_back({a, t.particle}), pairs.push_back({t.particle, a});
-    }
-  };
-  for (Index i : positions.widened_interior) {
-    note(cells.interior[static_cast<std::size_t>(i)].a, positions.interior.row(i));
-    note(cells.interior[static_cast<std::size_t>(i)].b, positions.interior.row(i));
-  }
-  for (Index i : positions.widened_boundary)
-    if (is_zero(D[static_cast<std::size_t>(i)]))
-      note(cells.boundary[static_cast<std::size_t>(i)].owner, positions.boundary.row(i));
-  return group_by_row<DistantPair>(static_cast<Index>(cells.volume.size()), pairs,
-                                   [](const DistantPair& p) { return p.a; });
+bool is_neighbour(std::span<const FaceOfCell> row, Index b) {
+  return std::any_of(row.begin(), row.end(), [b](const FaceOfCell& f) { return f.neighbour == b; });
 }
+
+/// All such pairs, both ways round, sorted, each once.
+class DistantPairs {
+ public:
+  DistantPairs(const Csr<FaceOfCell>& faces, const FacePositions& positions, const Cells& cells,
+               std::span<const Mat3> D)
+      : faces_(faces) {
+    for (std::size_t i = 0; i < cells.interior.size(); ++i) {
+      if (!positions.is_widened[i]) continue;
+      const InteriorFace& f = cells.interior[i];
+      for (const Index a : {f.a, f.b})
+        for (const Index owner : {f.a, f.b})
+          for (const FaceOfCell& g : interior_faces(faces, owner)) note(a, g.neighbour);
+    }
+    for (const Index i : positions.widened_boundary)
+      if (is_zero(D[static_cast<std::size_t>(i)]))
+        for (const FaceTerm& t : positions.boundary.row(i))
+          note(cells.boundary[static_cast<std::size_t>(i)].owner, t.particle);
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+  }
+
+  std::span<const DistantPair> of(Index a) const {
+    const auto is_before = [](const DistantPair& p, Index b) { return p.a < b; };
+    const auto first = std::lower_bound(pairs_.begin(), pairs_.end(), a, is_before);
+    return {first, std::lower_bound(first, pairs_.end(), a + 1, is_before)};
+  }
+
+ private:
+  void note(Index a, Index b) {
+    if (a == b || is_neighbour(interior_faces(faces_, a), b)) return;
+    pairs_.push_back({a, b});
+    pairs_.push_back({b, a});
+  }
+
+  const Csr<FaceOfCell>& faces_;
+  std::vector<DistantPair> pairs_;
+};
 
 /// One bond while a row is put together.
 struct BondEntry {
   Index b;
   double area;  // of the common face, zero if there is none
+  Vec3 X;
   Vec3 B;
 };
 
+/// Makes the row of one particle after the other; one assembler belongs to one thread.
 class RowAssembler {
  public:
-  RowAssembler(const Csr<FaceOfCell>& faces, const FacePositions& positions, const Cells& cells,
-               std::span<const Mat3> D)
-      : faces_(faces),
-        positions_(positions),
-        cells_(cells),
-        D_(D),
-        distant_(distant_pairs(faces, positions, cells, D)) {}
+  RowAssembler(std::span<const Vec3> X, const Csr<FaceOfCell>& faces, const FacePositions& positions,
+               const Cells& cells, std::span<const Mat3> D, const DistantPairs& distant)
+      : X_(X), faces_(faces), positions_(positions), cells_(cells), D_(D), distant_(distant) {}
 
-  /// V_a F_a = sum_f c_f (x) A_f over the faces of a, faces with a boundary node left out.
-  void operator()(Index a, parallel::RowCollector<BondEntry>& out) const {
-    thread_local std::vector<BondEntry> row;
-    start(a, row);
-    for (const FaceOfCell& g : faces_.row(a)) {
-      const auto k = static_cast<std::size_t>(g.face);
+  /// V_a F_a = sum_f c_f (x) A_f over the faces of a, faces with a boundary node left out. Ascending neighbours.
+  std::span<const BondEntry> row(Index a) {
+    start(a);
+    for (const FaceOfCell& g : faces_.row(a))
       if (g.neighbour >= 0)
-        add(a, row, positions_.interior.row(g.face),
-            cells_.interior[k].a == a ? cells_.interior[k].area : -cells_.interior[k].area);
-      else if (is_zero(D_[k]))
-        add(a, row, positions_.boundary.row(g.face), cells_.boundary[k].area);
-    }
-    for (const BondEntry& entry : row) out.add(entry);
+        add_interior(a, g);
+      else if (is_zero(D_[static_cast<std::size_t>(g.face)]))
+        for (const FaceTerm& t : positions_.boundary.row(g.face))
+          add(a, t.particle, t.weight * cells_.boundary[static_cast<std::size_t>(g.face)].area);
+    if (row_.size() > nearest_)
+      std::inplace_merge(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(nearest_), row_.end(),
+                         [](const BondEntry& l, const BondEntry& r) { return l.b < r.b; });
+    return row_;
   }
 
  private:
-  void start(Index a, std::vector<BondEntry>& row) const {
-    row.clear();
-    for (const FaceOfCell& f : faces_.row(a))
-      if (f.neighbour >= 0)
-        row.push_back({f.neighbour, norm(cells_.interior[static_cast<std::size_t>(f.face)].area), {}});
-    if (distant_.row(a).empty()) return;
-    const auto nearest = static_cast<std::ptrdiff_t>(row.size());
-    for (const DistantPair& p : distant_.row(a)) row.push_back({p.b, 0.0, {}});
-    const auto before = [](const BondEntry& l, const BondEntry& r) { return l.b < r.b; };
-    std::sort(row.begin() + nearest, row.end(), before);
-    row.erase(std::unique(row.begin() + nearest, row.end(),
-                          [](const BondEntry& l, const BondEntry& r) { return l.b == r.b; }),
-              row.end());
-    std::inplace_merge(row.begin(), row.begin() + nearest, row.end(), before);
+  const Vec3& at(Index a) const { return X_[static_cast<std::size_t>(a)]; }
+
+  /// Neighbours with a common face first, in the order of the faces, then distant ones.
+  void start(Index a) {
+    row_.clear();
+    of_a_ = interior_faces(faces_, a);
+    for (const FaceOfCell& f : of_a_)
+      row_.push_back({f.neighbour, norm(cells_.interior[static_cast<std::size_t>(f.face)].area), at(f.neighbour), {}});
+    nearest_ = row_.size();
+    for (const DistantPair& p : distant_.of(a)) row_.push_back({p.b, 0.0, at(p.b), {}});
   }
 
-  static void add(Index a, std::vector<BondEntry>& row, std::span<const FaceTerm> position, const Vec3& A) {
-    for (const FaceTerm& t : position) {
-      if (t.particle == a) continue;
-      const auto it = std::lower_bound(row.begin(), row.end(), t.particle,
-                                       [](const BondEntry& entry, Index b) { return entry.b < b; });
-      it->B += t.weight * A;
+  void add_interior(Index a, const FaceOfCell& g) {
+    const auto k = static_cast<std::size_t>(g.face);
+    const InteriorFace& face = cells_.interior[k];
+    const Vec3 A = face.a == a ? face.area : -face.area;
+    BondEntry& across = row_[static_cast<std::size_t>(&g - faces_.row(a).data())];
+    across.B += 0.5 * A;
+    const StencilFunction& w = positions_.interior[k];
+    if (w.is_zero()) return;
+    const Vec3 middle = 0.5 * (at(a) + across.X);
+    const std::span<const FaceOfCell> of_b = interior_faces(faces_, g.neighbour);
+    if (positions_.is_widened[k]) return add_widened(a, of_b, middle, w, A);
+    across.B += w(across.X - middle) * A;
+    for (const Index place : common_.find(of_a_, of_b)) {
+      BondEntry& entry = row_[static_cast<std::size_t>(place)];
+      entry.B += w(entry.X - middle) * A;
     }
   }
 
+  /// Over all neighbours of both, each once.
+  void add_widened(Index a, std::span<const FaceOfCell> of_b, const Vec3& middle, const StencilFunction& w,
+                   const Vec3& A) {
+    for (std::size_t i = 0; i < nearest_; ++i) row_[i].B += w(row_[i].X - middle) * A;
+    for (const FaceOfCell& f : of_b)
+      if (!is_neighbour(of_a_, f.neighbour)) add(a, f.neighbour, w(at(f.neighbour) - middle) * A);
+  }
+
+  void add(Index a, Index b, const Vec3& B) {
+    if (b == a) return;
+    const auto nearest_end = row_.begin() + static_cast<std::ptrdiff_t>(nearest_);
+    const auto is_before = [](const BondEntry& entry, Index c) { return entry.b < c; };
+    auto it = std::lower_bound(row_.begin(), nearest_end, b, is_before);
+    if (it == nearest_end || it->b != b) it = std::lower_bound(nearest_end, row_.end(), b, is_before);
+    it->B += B;
+  }
+
+  std::span<const Vec3> X_;
   const Csr<FaceOfCell>& faces_;
   const FacePositions& positions_;
   const Cells& cells_;
   std::span<const Mat3> D_;
-  Csr<DistantPair> distant_;
+  const DistantPairs& distant_;
+
+  CommonNeighbours common_;
+  std::vector<BondEntry> row_;
+  std::span<const FaceOfCell> of_a_;
+  std::size_t nearest_ = 0;
 };
 
-void build_bonds(Discretization& d, const RowAssembler& assembler) {
-  Csr<BondEntry> rows = parallel::collect_rows<BondEntry>(d.particles(), assembler);
-  const std::size_t n = rows.value.size();
+/// How many bonds every row has is known before they are made, so each goes straight to its place.
+void build_bonds(Discretization& d, const Cells& cells, const Csr<FaceOfCell>& faces, const FacePositions& positions,
+                 std::span<const Mat3> D) {
+  const DistantPairs distant(faces, positions, cells, D);
   Bonds& bonds = d.bonds;
-  bonds.offset = std::move(rows.offset);
+  bonds.offset.assign(1, 0);
+  bonds.offset.reserve(d.X.size() + 1);
+  for (Index a = 0; a < d.particles(); ++a)
+    bonds.offset.push_back(bonds.offset.back() +
+                           static_cast<Offset>(interior_faces(faces, a).size() + distant.of(a).size()));
+  const auto n = static_cast<std::size_t>(bonds.offset.back());
   bonds.neighbour.resize(n);
   bonds.B_ab.resize(n);
   bonds.area_over_length.resize(n);
-  parallel::for_each(static_cast<std::int64_t>(n), [&](std::int64_t i) {
-    const auto k = static_cast<std::size_t>(i);
-    bonds.neighbour[k] = rows.value[k].b;
-    bonds.B_ab[k] = rows.value[k].B;
-    bonds.area_over_length[k] = rows.value[k].area;  // divided by the length below
-  });
-  rows = {};
-  complete_bonds(bonds);
-  parallel::for_each(bonds.rows(), [&](std::int64_t a) {
-    for (Offset i = bonds.begin(static_cast<Index>(a)); i < bonds.end(static_cast<Index>(a)); ++i)
-      bonds.area_over_length[static_cast<std::size_t>(i)] /= norm(d.branch(static_cast<Index>(a), i));
+  parallel::for_ranges(0, d.particles(), [&](std::int64_t begin, std::int64_t end) {
+    RowAssembler assembler(d.X, faces, positions, cells, D, distant);
+    for (auto a = static_cast<Index>(begin); a < static_cast<Index>(end); ++a) {
+      auto k = static_cast<std::size_t>(bonds.begin(a));
+      for (const BondEntry& entry : assembler.row(a)) {
+        bonds.neighbour[k] = entry.b;
+        bonds.B_ab[k] = entry.B;
+        bonds.area_over_length[k++] = entry.area / norm(entry.X - d.X[static_cast<std::size_t>(a)]);
+      }
+    }
   });
 }
 
@@ -161,10 +213,13 @@ void build_boundary(Discretization& d, const FacePositions& positions, const Cel
 Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D) {
   Discretization d;
   describe_particles(d, X, cells);
-  const Csr<FaceOfCell> faces = faces_of_cells(cells);
-  const FacePositions positions = face_positions(X, cells, faces, D);
-  build_bonds(d, RowAssembler(faces, positions, cells, D));
-  build_boundary(d, positions, cells, D);
+  {
+    const Csr<FaceOfCell> faces = faces_of_cells(cells);
+    const FacePositions positions = face_positions(X, cells, faces, D);
+    build_bonds(d, cells, faces, positions, D);
+    build_boundary(d, positions, cells, D);
+  }
+  complete_bonds(d.bonds);
   d.B_aa = diagonal_vectors(d);
   return d;
 }

@@ -25,7 +25,8 @@ using Collector = parallel::RowCollector<FaceTerm>;
 
 /// Memory of one stencil, kept from face to face.
 struct Scratch {
-  std::vector<Index> of_a, of_b, stencil;
+  CommonNeighbours common;
+  std::vector<Index> stencil;
   std::vector<Vec3> y;
   std::vector<double> w;
 };
@@ -36,20 +37,20 @@ class FaceFitter {
       : X_(X), cells_(cells), faces_(faces) {}
 
   /// Return whether the stencil had to be widened.
-  bool interior(const InteriorFace& f, Scratch& s, Collector& out) const;
+  bool interior(const InteriorFace& f, Scratch& s, StencilFunction& function) const;
   bool boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Collector& out) const;
 
  private:
-  void neighbours(Index a, std::vector<Index>& list) const {
-    list.clear();
-    for (const FaceOfCell& f : faces_.row(a))
-      if (f.neighbour >= 0) list.push_back(f.neighbour);
+  void add_neighbours(Index a, std::vector<Index>& list) const {
+    for (const FaceOfCell& f : interior_faces(faces_, a)) list.push_back(f.neighbour);
   }
   void place(Scratch& s, const Vec3& origin) const {
     s.y.clear();
     for (Index c : s.stencil) s.y.push_back(X_[static_cast<std::size_t>(c)] - origin);
     s.w.resize(s.y.size());
   }
+  void first_ring(const InteriorFace& f, Scratch& s) const;
+  void both_rings(const InteriorFace& f, Scratch& s) const;
   void second_ring(Index a, Scratch& s) const;
   const Vec3& at(Index a) const { return X_[static_cast<std::size_t>(a)]; }
   std::string name(Index a) const { return fmt::format("{} at ({:g}, {:g}, {:g})", a, at(a).x, at(a).y, at(a).z); }
@@ -59,35 +60,43 @@ class FaceFitter {
   const Csr<FaceOfCell>& faces_;
 };
 
-void insert(std::vector<Index>& sorted, Index a) {
-  const auto it = std::lower_bound(sorted.begin(), sorted.end(), a);
-  if (it == sorted.end() || *it != a) sorted.insert(it, a);
+void sort_once(std::vector<Index>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+void FaceFitter::first_ring(const InteriorFace& f, Scratch& s) const {
+  const std::span<const FaceOfCell> of_a = interior_faces(faces_, f.a);
+  s.stencil.assign({f.a, f.b});
+  for (const Index place : s.common.find(of_a, interior_faces(faces_, f.b)))
+    s.stencil.push_back(of_a[static_cast<std::size_t>(place)].neighbour);
+}
+
+/// a and b are neighbours of each other.
+void FaceFitter::both_rings(const InteriorFace& f, Scratch& s) const {
+  s.stencil.clear();
+  add_neighbours(f.a, s.stencil);
+  add_neighbours(f.b, s.stencil);
+  sort_once(s.stencil);
 }
 
 /// c_f = (x_a + x_b)/2 + sum_c w_c x_c: over a, b and their common neighbours; over all neighbours of both where
 /// those do not span the face's offset.
-bool FaceFitter::interior(const InteriorFace& f, Scratch& s, Collector& out) const {
+bool FaceFitter::interior(const InteriorFace& f, Scratch& s, StencilFunction& function) const {
   const Vec3 middle = 0.5 * (at(f.a) + at(f.b));
   const Vec3 offset = f.centroid - middle;
   const double L = norm(at(f.b) - at(f.a));
-  out.add({f.a, 0.5});
-  out.add({f.b, 0.5});
   if (norm(offset) <= centred * L) return false;
 
-  neighbours(f.a, s.of_a);
-  neighbours(f.b, s.of_b);
   for (const bool widened : {false, true}) {
-    s.stencil.clear();
     if (widened)
-      std::set_union(s.of_a.begin(), s.of_a.end(), s.of_b.begin(), s.of_b.end(), std::back_inserter(s.stencil));
+      both_rings(f, s);
     else
-      std::set_intersection(s.of_a.begin(), s.of_a.end(), s.of_b.begin(), s.of_b.end(), std::back_inserter(s.stencil));
-    insert(s.stencil, f.a);
-    insert(s.stencil, f.b);
+      first_ring(f, s);
     place(s, middle);
     const StencilFit fit = balanced_weights(s.y, offset, s.w);
     if (norm(fit.residual) > position_tolerance * L || fit.amplification > largest_amplification) continue;
-    for (std::size_t c = 0; c < s.stencil.size(); ++c) out.add({s.stencil[c], s.w[c]});
+    function = fit.function;
     return widened;
   }
   throw GeometryError(
@@ -97,14 +106,11 @@ bool FaceFitter::interior(const InteriorFace& f, Scratch& s, Collector& out) con
 }
 
 void FaceFitter::second_ring(Index a, Scratch& s) const {
-  neighbours(a, s.stencil);
-  const std::vector<Index> first = s.stencil;
-  for (Index c : first) {
-    neighbours(c, s.of_b);
-    s.stencil.insert(s.stencil.end(), s.of_b.begin(), s.of_b.end());
+  for (const FaceOfCell& f : interior_faces(faces_, a)) {
+    s.stencil.push_back(f.neighbour);
+    add_neighbours(f.neighbour, s.stencil);
   }
-  std::sort(s.stencil.begin(), s.stencil.end());
-  s.stencil.erase(std::unique(s.stencil.begin(), s.stencil.end()), s.stencil.end());
+  sort_once(s.stencil);
   std::erase(s.stencil, a);
 }
 
@@ -117,10 +123,11 @@ bool FaceFitter::boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Coll
   const Mat3 beyond_normal = D - outer(N, N);
   const bool symmetric = contract(beyond_normal, beyond_normal) < 1e-20;
   for (const bool widened : {false, true}) {
+    s.stencil.clear();
     if (widened)
       second_ring(f.owner, s);
     else
-      neighbours(f.owner, s.stencil);
+      add_neighbours(f.owner, s.stencil);
     if (s.stencil.empty()) continue;
     place(s, at(f.owner));
     const StencilFit fit = spanning_weights(s.y, offset, s.w);
@@ -153,14 +160,14 @@ FacePositions face_positions(std::span<const Vec3> X, const Cells& cells, const 
                              std::span<const Mat3> D) {
   const FaceFitter fitter(X, cells, faces);
   FacePositions p;
-  std::vector<char> wide(cells.interior.size(), 0);
-  p.interior = parallel::collect_rows<FaceTerm>(static_cast<Index>(wide.size()), [&](Index i, Collector& out) {
+  p.interior.resize(cells.interior.size());
+  p.is_widened.assign(cells.interior.size(), 0);
+  parallel::for_each(static_cast<std::int64_t>(cells.interior.size()), [&](std::int64_t i) {
     thread_local Scratch scratch;
     const auto k = static_cast<std::size_t>(i);
-    wide[k] = fitter.interior(cells.interior[k], scratch, out);
+    p.is_widened[k] = fitter.interior(cells.interior[k], scratch, p.interior[k]);
   });
-  p.widened_interior = marked(wide);
-  wide.assign(cells.boundary.size(), 0);
+  std::vector<char> wide(cells.boundary.size(), 0);
   p.boundary = parallel::collect_rows<FaceTerm>(static_cast<Index>(wide.size()), [&](Index i, Collector& out) {
     thread_local Scratch scratch;
     const auto k = static_cast<std::size_t>(i);

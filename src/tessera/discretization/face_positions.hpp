@@ -5,6 +5,7 @@
 
 #include "tessera/base/csr.hpp"
 #include "tessera/base/mat3.hpp"
+#include "tessera/discretization/stencil.hpp"
 #include "tessera/discretization/voronoi_common.hpp"
 #include "tessera/tessellation/cells.hpp"
 
@@ -16,12 +17,35 @@ struct FaceTerm {
   double weight = 0.0;
 };
 
-/// Positions of all faces, one row a face, in the order of Cells::interior and Cells::boundary.
+/// Positions of all faces, in the order of Cells::interior and Cells::boundary.
+///
+/// An interior face has c_f = (x_a + x_b)/2 + sum_c w_c x_c over its stencil: a, b and their common neighbours; if it
+/// is widened, a, b and all neighbours of both. w_c is the value of the face's function at X_c - (X_a + X_b)/2.
 struct FacePositions {
-  Csr<FaceTerm> interior;
+  std::vector<StencilFunction> interior;
+  std::vector<char> is_widened;         // of interior faces: 0 or 1
   Csr<FaceTerm> boundary;               // empty for faces that are wholly prescribed; else the free components
-  std::vector<Index> widened_interior;  // faces whose stencil reaches beyond the common nearest neighbours
-  std::vector<Index> widened_boundary;
+  std::vector<Index> widened_boundary;  // faces whose stencil reaches beyond the nearest neighbours
+};
+
+/// The places, in the first of two lists of faces of cells, of the neighbours that both have.
+class CommonNeighbours {
+ public:
+  std::span<const Index> find(std::span<const FaceOfCell> of_a, std::span<const FaceOfCell> of_b) {
+    if (places_.size() <= of_a.size()) places_.resize(of_a.size() + 1);
+    std::size_t i = 0, j = 0, n = 0;
+    while (i < of_a.size() && j < of_b.size()) {  // without branches that depend on the lists
+      const Index c = of_a[i].neighbour, d = of_b[j].neighbour;
+      places_[n] = static_cast<Index>(i);
+      n += c == d;
+      i += c <= d;
+      j += d <= c;
+    }
+    return {places_.data(), n};
+  }
+
+ private:
+  std::vector<Index> places_;
 };
 
 /// The positions of the consistent formulation: exact for linear motion, from the nearest particles. `D` holds one

@@ -29,9 +29,12 @@ void complete_bonds(Bonds& bonds) {
 
 std::vector<Vec3> diagonal_vectors(const Discretization& d) {
   std::vector<Vec3> B_aa(d.X.size());
-  for (Index a = 0; a < d.particles(); ++a)
-    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i)
-      B_aa[static_cast<std::size_t>(a)] -= d.bonds.B_ab[static_cast<std::size_t>(i)];
+  parallel::for_each(d.particles(), [&](std::int64_t row) {
+    const auto a = static_cast<Index>(row);
+    Vec3 sum;
+    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) sum -= d.bonds.B_ab[static_cast<std::size_t>(i)];
+    B_aa[static_cast<std::size_t>(a)] = sum;
+  });
   for (const BoundaryNode& f : d.nodes) B_aa[static_cast<std::size_t>(f.owner)] -= f.B_af;
   return B_aa;
 }
@@ -103,15 +106,16 @@ bool has_potential(const Discretization& d) {
 }
 
 std::vector<double> shortest_bonds(const Discretization& d) {
-  std::vector<double> h(d.X.size(), std::numeric_limits<double>::infinity());
-  for (Index a = 0; a < d.particles(); ++a)
-    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      if (d.bonds.area_over_length[k] > 0.0)
-        h[static_cast<std::size_t>(a)] = std::min(h[static_cast<std::size_t>(a)], norm(d.branch(a, i)));
-    }
-  for (std::size_t a = 0; a < h.size(); ++a)  // a body of one particle has no bond
-    if (!std::isfinite(h[a])) h[a] = std::cbrt(d.volume[a]);
+  std::vector<double> h(d.X.size());
+  parallel::for_each(d.particles(), [&](std::int64_t row) {
+    const auto a = static_cast<Index>(row);
+    double shortest = std::numeric_limits<double>::infinity();
+    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i)
+      if (d.bonds.area_over_length[static_cast<std::size_t>(i)] > 0.0)
+        shortest = std::min(shortest, norm(d.branch(a, i)));
+    const auto k = static_cast<std::size_t>(a);
+    h[k] = std::isfinite(shortest) ? shortest : std::cbrt(d.volume[k]);  // a body of one particle has no bond
+  });
   return h;
 }
 

@@ -6,8 +6,19 @@
 
 namespace tessera {
 
-/// How well the weights of a stencil do their job.
+/// The weights of a stencil as a function of the position relative to its reference point, y [m]:
+/// w(y) = (constant + gradient . y) / |y|^2. It takes less memory than the weights.
+struct StencilFunction {
+  double constant = 0.0;  // [m2]
+  Vec3 gradient;          // [m]
+
+  double operator()(const Vec3& y) const { return (constant + dot(gradient, y)) / norm2(y); }
+  bool is_zero() const { return constant == 0.0 && gradient == Vec3{}; }
+};
+
+/// The weights of a stencil and how well they do their job.
 struct StencilFit {
+  StencilFunction function;    // w_c is its value at y_c, bit by bit
   Vec3 residual;               // target - sum w_c y_c [m]
   double amplification = 0.0;  // sqrt(sum w_c^2 r_c^2) / |target|: about one on a sound stencil
 };

@@ -17,6 +17,13 @@ struct FaceOfCell {
 /// The faces of every cell: interior ones by ascending neighbour, then boundary ones by ascending side.
 Csr<FaceOfCell> faces_of_cells(const Cells& cells);
 
+/// The interior ones of a cell's faces.
+inline std::span<const FaceOfCell> interior_faces(const Csr<FaceOfCell>& faces, Index a) {
+  std::span<const FaceOfCell> row = faces.row(a);
+  while (!row.empty() && row.back().neighbour < 0) row = row.first(row.size() - 1);
+  return row;
+}
+
 /// Fills what all Voronoi formulations share: positions, volumes and one site per boundary face.
 void describe_particles(Discretization& d, std::span<const Vec3> X, const Cells& cells);
 
