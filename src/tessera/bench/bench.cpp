@@ -74,7 +74,7 @@ System build(Index particles, Formulation formulation, std::map<std::string, dou
   std::vector<Vec3> X;
   stages["points"] = seconds([&] {
     points = place_particles({lattice, {}}, solid, delaunay ? Placement::vertices : Placement::cell_centres);
-    for (Index i : hilbert_order(points.points)) X.push_back(points.points[static_cast<std::size_t>(i)]);
+    X = permuted(points.points, hilbert_order(points.points));
   });
   Discretization d;
   if (delaunay) {

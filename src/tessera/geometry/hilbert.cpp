@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
 
 #include "tessera/geometry/particles.hpp"
+#include "tessera/parallel/parallel.hpp"
+#include "tessera/parallel/sort.hpp"
 
 namespace tessera {
 namespace {
@@ -32,12 +33,20 @@ std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   return key;
 }
 
+/// Equal keys stay in the order of the points.
+struct Placed {
+  std::uint64_t key;
+  Index point;
+
+  friend bool operator<(const Placed& a, const Placed& b) {
+    return a.key < b.key || (a.key == b.key && a.point < b.point);
+  }
+};
+
 }  // namespace
 
 std::vector<Index> hilbert_order(const std::vector<Vec3>& points) {
-  std::vector<Index> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  if (points.empty()) return order;
+  if (points.empty()) return {};
   Vec3 lower = points[0], upper = points[0];
   for (const Vec3& X : points)
     for (int d = 0; d < 3; ++d) lower[d] = std::min(lower[d], X[d]), upper[d] = std::max(upper[d], X[d]);
@@ -45,16 +54,28 @@ std::vector<Index> hilbert_order(const std::vector<Vec3>& points) {
   const double extent = std::max({size.x, size.y, size.z});
   const double scale =
       extent > 0.0 ? ((1U << kBits) - 1) / extent : 0.0;  // one scale: near in space is near on the curve
-  std::vector<std::uint64_t> key;
-  for (const Vec3& X : points) {
-    const Vec3 cell = scale * (X - lower);
-    key.push_back(hilbert_key(
-        {static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y), static_cast<std::uint32_t>(cell.z)}));
-  }
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return key[static_cast<std::size_t>(a)] < key[static_cast<std::size_t>(b)];
+  std::vector<Placed> placed(points.size());
+  const auto n = static_cast<std::int64_t>(points.size());
+  parallel::for_each(n, [&](std::int64_t i) {
+    const Vec3 cell = scale * (points[static_cast<std::size_t>(i)] - lower);
+    const std::uint64_t key = hilbert_key(
+        {static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y), static_cast<std::uint32_t>(cell.z)});
+    placed[static_cast<std::size_t>(i)] = {key, static_cast<Index>(i)};
   });
+  parallel::sort(placed);
+  std::vector<Index> order(points.size());
+  parallel::for_each(
+      n, [&](std::int64_t i) { order[static_cast<std::size_t>(i)] = placed[static_cast<std::size_t>(i)].point; });
   return order;
+}
+
+std::vector<Vec3> permuted(const std::vector<Vec3>& points, const std::vector<Index>& order) {
+  std::vector<Vec3> result(order.size());
+  parallel::for_each(static_cast<std::int64_t>(order.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    result[k] = points[static_cast<std::size_t>(order[k])];
+  });
+  return result;
 }
 
 }  // namespace tessera

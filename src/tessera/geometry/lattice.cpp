@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tessera/geometry/boundary.hpp"
+#include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
 namespace {
@@ -75,26 +76,53 @@ class Placer {
   }
 
   PointSet place() {
+    const auto nodes = static_cast<std::int64_t>(lattice_.particle.size());
+    std::vector<Block> blocks(static_cast<std::size_t>((nodes + parallel::block_size - 1) / parallel::block_size));
+    const auto block = [](std::int64_t begin) { return static_cast<std::size_t>(begin / parallel::block_size); };
+    parallel::for_ranges(0, nodes, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t node = begin; node < end; ++node)
+        place_node(static_cast<std::size_t>(node), blocks[block(begin)]);
+    });
+    std::size_t particles = 0;
+    for (Block& b : blocks) {
+      if (b.lost) refuse(b.points[*b.lost], particles + *b.lost);
+      b.first = particles;
+      particles += b.points.size();
+    }
     PointSet set;
-    std::size_t node = 0;
-    for (Index k = 0; k < lattice_.nodes[2]; ++k)
-      for (Index j = 0; j < lattice_.nodes[1]; ++j)
-        for (Index i = 0; i < lattice_.nodes[0]; ++i, ++node) place_node(i, j, k, node, set.points);
+    set.points.resize(particles);
+    parallel::for_ranges(0, nodes, [&](std::int64_t begin, std::int64_t end) {
+      const Block& b = blocks[block(begin)];
+      std::copy(b.points.begin(), b.points.end(), set.points.begin() + static_cast<std::ptrdiff_t>(b.first));
+      for (auto node = static_cast<std::size_t>(begin); node < static_cast<std::size_t>(end); ++node)
+        if (lattice_.particle[node] >= 0) lattice_.particle[node] += static_cast<Index>(b.first);
+    });
     set.lattice = std::move(lattice_);
     return set;
   }
 
  private:
-  void place_node(Index i, Index j, Index k, std::size_t node, std::vector<Vec3>& points) {
+  /// The particles of consecutive nodes.
+  struct Block {
+    std::vector<Vec3> points;
+    std::size_t first = 0;
+    std::optional<std::size_t> lost;  // the first one that was moved out of the solid
+  };
+
+  /// Numbers particles within the block.
+  void place_node(std::size_t node, Block& block) {
+    const auto nx = static_cast<std::size_t>(lattice_.nodes[0]), ny = static_cast<std::size_t>(lattice_.nodes[1]);
+    const Vec3 ijk{static_cast<double>(node % nx), static_cast<double>(node / nx % ny),
+                   static_cast<double>(node / nx / ny)};
     const Vec3& h = lattice_.spacing;
-    Vec3 X = lattice_.origin + Vec3{i * h.x, j * h.y, k * h.z};
+    Vec3 X = lattice_.origin + Vec3{ijk.x * h.x, ijk.y * h.y, ijk.z * h.z};
     if (!solid_.contains(X, tolerance_)) return;
     const std::vector<Index> sides = sides_at(solid_, X, tolerance_);
     if (placement_ == Placement::cell_centres && !sides.empty()) return;
     X = moved_onto(solid_, sides, X) + along_sides(solid_, sides, random_move(node));
-    lattice_.particle[node] = static_cast<Index>(points.size());
-    if (spec_.jitter > 0.0) check_moved(X, points.size());
-    points.push_back(X);
+    lattice_.particle[node] = static_cast<Index>(block.points.size());
+    if (spec_.jitter > 0.0 && !block.lost && !is_fine(X)) block.lost = block.points.size();
+    block.points.push_back(X);
   }
 
   Vec3 random_move(std::size_t node) const {
@@ -104,10 +132,11 @@ class Placer {
     return move;
   }
 
-  void check_moved(const Vec3& X, std::size_t particle) const {
-    const bool is_fine =
-        placement_ == Placement::vertices ? solid_.contains(X, tolerance_) : is_well_inside(solid_, X, tolerance_);
-    if (is_fine) return;
+  bool is_fine(const Vec3& X) const {
+    return placement_ == Placement::vertices ? solid_.contains(X, tolerance_) : is_well_inside(solid_, X, tolerance_);
+  }
+
+  [[noreturn]] void refuse(const Vec3& X, std::size_t particle) const {
     throw GeometryError(
         fmt::format("jitter = {:g} with seed = {} moves particle {} out of the solid, to ({:g}, {:g}, "
                     "{:g}) m; choose a smaller jitter or another seed",

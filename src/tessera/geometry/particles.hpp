@@ -61,4 +61,7 @@ PointSet place_particles(const ParticleSpec& spec, const Solid& solid, Placement
 /// A permutation along a space-filling (Hilbert) curve: order[i] is the point that comes i-th.
 std::vector<Index> hilbert_order(const std::vector<Vec3>& points);
 
+/// The points in that order.
+std::vector<Vec3> permuted(const std::vector<Vec3>& points, const std::vector<Index>& order);
+
 }  // namespace tessera

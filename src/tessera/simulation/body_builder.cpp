@@ -50,13 +50,6 @@ PointSet points_of(const Case& c, const BodySpec& body, const Solid& solid) {
   return points;
 }
 
-std::vector<Vec3> permuted(const std::vector<Vec3>& points, const std::vector<Index>& order) {
-  std::vector<Vec3> result;
-  result.reserve(points.size());
-  for (Index i : order) result.push_back(points[static_cast<std::size_t>(i)]);
-  return result;
-}
-
 std::vector<std::string> sorted_names(const std::vector<std::vector<std::string>>& sides) {
   std::set<std::string> names;
   for (const auto& side : sides) names.insert(side.begin(), side.end());
