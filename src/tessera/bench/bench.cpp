@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tessera/bench/layout.hpp"
+#include "tessera/bench/memory.hpp"
 #include "tessera/bench/triad.hpp"
 #include "tessera/discretization/delaunay.hpp"
 #include "tessera/discretization/voronoi.hpp"
@@ -157,7 +158,9 @@ BenchRow measure(Index particles, int threads, Formulation formulation) {
   BenchRow row;
   row.threads = threads;
   row.formulation = formulation == Formulation::delaunay ? "delaunay" : "voronoi";
+  const PeakMemory memory;
   const System system = build(particles, formulation, row.stages);
+  if (const auto peak = memory.bytes()) row.setup_peak_bytes = *peak / static_cast<double>(system.particles());
   for (const auto& [name, time] : row.stages) row.setup_seconds += time;
   row.particles = system.particles();
   row.bytes_per_particle_step = bytes_per_particle_step(system);
@@ -196,7 +199,7 @@ std::string to_json(const BenchReport& report) {
   for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
     j["triad_bytes_per_second"][std::to_string(threads)] = bandwidth;
   j["results"] = nlohmann::ordered_json::array();
-  for (const BenchRow& r : report.rows)
+  for (const BenchRow& r : report.rows) {
     j["results"].push_back({{"particles", r.particles},
                             {"threads", r.threads},
                             {"formulation", r.formulation},
@@ -205,6 +208,8 @@ std::string to_json(const BenchReport& report) {
                             {"bytes_per_particle", r.bytes_per_particle},
                             {"setup_seconds", r.setup_seconds},
                             {"stages", r.stages}});
+    if (r.setup_peak_bytes) j["results"].back()["setup_peak_bytes_per_particle"] = *r.setup_peak_bytes;
+  }
   return j.dump(2) + "\n";
 }
 
@@ -212,15 +217,17 @@ std::string to_table(const BenchReport& report) {
   std::string text;
   for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
     text += fmt::format("triad on {} thread{}: {:.1f} GB/s\n", threads, threads == 1 ? "" : "s", 1e-9 * bandwidth);
-  text += fmt::format("\n{:>10} {:>8} {:>9} {:>12} {:>8} {:>9} {:>9}  {}\n", "particles", "threads", "set-up s",
-                      "M p-steps/s", "GB/s", "of triad", "B/particle", "strain, contact, stress, force of a step");
+  text += fmt::format("\n{:>10} {:>8} {:>9} {:>10} {:>12} {:>8} {:>9} {:>9}  {}\n", "particles", "threads", "set-up s",
+                      "its peak B", "M p-steps/s", "GB/s", "of triad", "B/particle",
+                      "strain, contact, stress, force of a step");
   for (const BenchRow& r : report.rows) {
     const double traffic = r.particle_steps_per_second * r.bytes_per_particle_step;
     const double step = r.stages.at("step");
     text += fmt::format(
-        "{:>10} {:>8} {:>9.2f} {:>12.2f} {:>8.1f} {:>8.0f}% {:>10.0f}  {:.0f}%, {:.0f}%, {:.0f}%, {:.0f}%\n",
-        r.particles, r.threads, r.setup_seconds, 1e-6 * r.particle_steps_per_second, 1e-9 * traffic,
-        100.0 * traffic / report.triad_bytes_per_second.at(r.threads), r.bytes_per_particle,
+        "{:>10} {:>8} {:>9.2f} {:>10} {:>12.2f} {:>8.1f} {:>8.0f}% {:>10.0f}  {:.0f}%, {:.0f}%, {:.0f}%, {:.0f}%\n",
+        r.particles, r.threads, r.setup_seconds,
+        r.setup_peak_bytes ? fmt::format("{:.0f}", *r.setup_peak_bytes) : "unknown", 1e-6 * r.particle_steps_per_second,
+        1e-9 * traffic, 100.0 * traffic / report.triad_bytes_per_second.at(r.threads), r.bytes_per_particle,
         100.0 * r.stages.at("strain") / step, 100.0 * r.stages.at("contact") / step,
         100.0 * r.stages.at("stress") / step, 100.0 * r.stages.at("force") / step);
   }

@@ -25,7 +25,8 @@ struct BenchRow {
   double bytes_per_particle_step = 0.0;    // counted from the data layout, gathers of neighbours from cache
   double bytes_per_particle = 0.0;         // resident data of the mechanics
   double setup_seconds = 0.0;
-  std::map<std::string, double> stages;  // seconds: set-up stages once, sweeps a step (median)
+  std::optional<double> setup_peak_bytes;  // resident memory at its peak during set-up, for a particle; Linux only
+  std::map<std::string, double> stages;    // seconds: set-up stages once, sweeps a step (median)
 };
 
 struct BenchReport {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tessera/parallel/parallel.hpp"
+#include "tessera/parallel/sort.hpp"
 
 namespace tessera::parallel {
 namespace {
@@ -126,6 +127,20 @@ TEST_F(Parallel, ThreadsAreStillSharedAfterAnException) {
     --together;
   });
   EXPECT_TRUE(met);
+}
+
+TEST_F(Parallel, SortsWhateverTheLength) {
+  for (const int n : {1, 2, 3}) {
+    set_threads(n);
+    for (const std::size_t size : {0U, 1U, 1000U, 16384U, 16385U, 300001U}) {
+      std::vector<std::uint64_t> items(size);
+      for (std::size_t i = 0; i < size; ++i) items[i] = (i + 1) * 0x9e3779b97f4a7c15ULL;
+      std::vector<std::uint64_t> expected = items;
+      std::sort(expected.begin(), expected.end());
+      sort(items);
+      EXPECT_EQ(items, expected) << size;
+    }
+  }
 }
 
 TEST_F(Parallel, NonPositiveThreadsKeepTheSetting) {
