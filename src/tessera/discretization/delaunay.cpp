@@ -1,21 +1,15 @@
 #include "tessera/discretization/delaunay.hpp"
 
-#include <algorithm>
+#include <array>
 
 #include "tessera/discretization/rows.hpp"
+#include "tessera/parallel/collect.hpp"
 
 namespace tessera {
 
 namespace {
 
 const Vec3& point(const TetrahedralMesh& mesh, Index i) { return mesh.points[static_cast<std::size_t>(i)]; }
-
-/// One contribution vol_t / 4 grad N_b to the gradient vector B_ab (b = a included).
-struct Contribution {
-  Index a = 0;
-  Index b = 0;
-  Vec3 B;
-};
 
 /// vol_t grad N_k is a third of the area vector of the face opposite to vertex k, pointing inwards.
 std::array<Vec3, 4> volume_gradients(const std::array<Vec3, 4>& x) {
@@ -24,44 +18,78 @@ std::array<Vec3, 4> volume_gradients(const std::array<Vec3, 4>& x) {
   return {-(g1 + g2 + g3), g1, g2, g3};
 }
 
-std::vector<Contribution> contributions(Discretization& d, const TetrahedralMesh& mesh) {
-  std::vector<Contribution> list;
-  list.reserve(16 * mesh.tetrahedra.size());
-  for (const auto& t : mesh.tetrahedra) {
-    const std::array<Vec3, 4> x{point(mesh, t[0]), point(mesh, t[1]), point(mesh, t[2]), point(mesh, t[3])};
-    const std::array<Vec3, 4> gradient = volume_gradients(x);
-    const double volume = dot(gradient[1], x[1] - x[0]);
-    for (Index a : t) {
-      d.volume[static_cast<std::size_t>(a)] += 0.25 * volume;
-      for (std::size_t b = 0; b < 4; ++b) list.push_back({a, t[b], 0.25 * gradient[b]});
+std::array<Vec3, 4> corners(const TetrahedralMesh& mesh, const std::array<Index, 4>& t) {
+  return {point(mesh, t[0]), point(mesh, t[1]), point(mesh, t[2]), point(mesh, t[3])};
+}
+
+double volume_of(const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& gradient) {
+  return dot(gradient[1], x[1] - x[0]);
+}
+
+/// The tetrahedra at each particle, ascending.
+Csr<Index> tetrahedra_at_particles(const TetrahedralMesh& mesh) {
+  Csr<Index> at;
+  at.offset.assign(mesh.points.size() + 1, 0);
+  for (const auto& t : mesh.tetrahedra)
+    for (const Index a : t) ++at.offset[static_cast<std::size_t>(a)];
+  // The offsets are the ends of the rows now; filling from the back moves them to the beginnings.
+  Offset end = 0;
+  for (Offset& offset : at.offset) offset = end += offset;
+  at.value.resize(static_cast<std::size_t>(end));
+  for (std::size_t i = mesh.tetrahedra.size(); i-- > 0;)
+    for (const Index a : mesh.tetrahedra[i])
+      at.value[static_cast<std::size_t>(--at.offset[static_cast<std::size_t>(a)])] = static_cast<Index>(i);
+  return at;
+}
+
+struct BondEntry {
+  Index b;
+  Vec3 B;
+};
+
+/// V_a = sum_t vol_t / 4 and B_ab = sum_t vol_t / 4 grad N_b over the tetrahedra t at a, [D 27].
+Csr<BondEntry> rows_of(Discretization& d, const TetrahedralMesh& mesh) {
+  const Csr<Index> at = tetrahedra_at_particles(mesh);
+  return parallel::collect_rows<BondEntry>(d.particles(), [&](Index a, parallel::RowCollector<BondEntry>& out) {
+    thread_local RowBuffer row;
+    double& V_a = d.volume[static_cast<std::size_t>(a)];
+    for (const Index i : at.row(a)) {
+      const std::array<Index, 4>& t = mesh.tetrahedra[static_cast<std::size_t>(i)];
+      const std::array<Vec3, 4> x = corners(mesh, t), gradient = volume_gradients(x);
+      V_a += 0.25 * volume_of(x, gradient);
+      for (std::size_t b = 0; b < 4; ++b)
+        if (t[b] != a) row.add(t[b], 0.25 * gradient[b]);
     }
-    d.body_volume += volume;
-  }
-  return list;
+    row.drain([&out](Index b, const Vec3& B) { out.add({b, B}); });
+  });
 }
 
 void build_bonds(Discretization& d, const TetrahedralMesh& mesh) {
-  const std::vector<Contribution> list = contributions(d, mesh);
-  const Csr<Contribution> rows =
-      group_by_row<Contribution>(d.particles(), list, [](const Contribution& c) { return c.a; });
-  RowBuffer row;
-  for (Index a = 0; a < d.particles(); ++a) {
-    for (const Contribution& c : rows.row(a)) row.add(c.b, c.B);
-    row.drain([&](Index b, const Vec3& B) {
-      if (b == a) return;
-      d.bonds.neighbour.push_back(b);
-      d.bonds.B_ab.push_back(B);
-    });
-    d.bonds.offset.push_back(static_cast<Offset>(d.bonds.neighbour.size()));
+  for (const auto& t : mesh.tetrahedra) {
+    const std::array<Vec3, 4> x = corners(mesh, t);
+    d.body_volume += volume_of(x, volume_gradients(x));
   }
-  complete_bonds(d.bonds);
+  Csr<BondEntry> rows = rows_of(d, mesh);
+  Bonds& bonds = d.bonds;
+  bonds.offset = std::move(rows.offset);
+  bonds.neighbour.resize(rows.value.size());
+  bonds.B_ab.resize(rows.value.size());
+  parallel::for_each(static_cast<std::int64_t>(rows.value.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    bonds.neighbour[k] = rows.value[k].b;
+    bonds.B_ab[k] = rows.value[k].B;
+  });
+  rows = {};
+  complete_bonds(bonds);
   // A_ab = 2 (|B_ab| + |B_ba|), [D 60].
-  d.bonds.area_over_length.resize(d.bonds.neighbour.size());
-  for (Index a = 0; a < d.particles(); ++a)
-    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
+  bonds.area_over_length.resize(bonds.neighbour.size());
+  parallel::for_each(d.particles(), [&](std::int64_t row) {
+    const auto a = static_cast<Index>(row);
+    for (Offset i = bonds.begin(a); i < bonds.end(a); ++i) {
       const auto k = static_cast<std::size_t>(i);
-      d.bonds.area_over_length[k] = 2.0 * (norm(d.bonds.B_ab[k]) + norm(d.bonds.B_ba[k])) / norm(d.branch(a, i));
+      bonds.area_over_length[k] = 2.0 * (norm(bonds.B_ab[k]) + norm(bonds.B_ba[k])) / norm(d.branch(a, i));
     }
+  });
 }
 
 void build_sites(Discretization& d, const TetrahedralMesh& mesh) {

@@ -15,10 +15,6 @@ template <class T, class Before = std::less<>>
 void sort(std::vector<T>& items, Before before = {}) {
   constexpr std::int64_t run = 16 * block_size;  // sorted at once, then merged two by two
   const auto n = static_cast<std::int64_t>(items.size());
-  const auto for_tasks = [](std::int64_t count, auto&& task) {
-    detail::run_blocks(
-        count, [](void* p, std::int64_t i) { (*static_cast<decltype(&task)>(p))(i); }, &task);
-  };
   const auto at = [n](std::vector<T>& v, std::int64_t i) { return v.begin() + std::min(i, n); };
   for_tasks((n + run - 1) / run,
             [&](std::int64_t i) { std::sort(at(items, i * run), at(items, (i + 1) * run), before); });
