@@ -16,8 +16,8 @@ int main(int count, char** arguments) {
   const bool delaunay = std::strcmp(arguments[1], "delaunay") == 0;
   const long steps = std::strtol(arguments[2], nullptr, 10);
   const test::Method method = delaunay ? test::Method::delaunay : test::Method::consistent;
-  const System s = test::system_of(
-      test::discretize(method, test::box({1, 1, 1}), {12, 12, 12}, 0.25, 1, test::nothing), test::rubber(), 0);
+  const System s = test::system_of(test::discretize(method, test::box({1, 1, 1}), {12, 12, 12}, 0.25, 1, test::nothing),
+                                   test::rubber(), 0);
   State state = reference_state(s);
   for (std::size_t a = 0; a < s.d.X.size(); ++a) state.v[a] = to_kernel(Vec3{s.d.X[a].y, -s.d.X[a].x, s.d.X[a].x});
   Forces forces(s);
