@@ -14,6 +14,7 @@ FieldsSpec build_fields(const Reader& t) {
   FieldsSpec fields;
   if (t.text("format") == "vtu") fields.format = FieldFormat::vtu;
   if (t.text("format") == "csv") fields.format = FieldFormat::csv;
+  if (t.has("precision") && t.text("precision") == "double") fields.precision = FieldPrecision::full;
   fields.every = t.optional_number("every");
   fields.quantities = t.words("quantities");
   fields.cells = t.flag("cells");

@@ -1,50 +1,158 @@
-#include <array>
-#include <numeric>
-#include <vector>
+#include "tessera/output/field_vtkhdf.hpp"
 
-#include "tessera/output/field_file.hpp"
+#include <algorithm>
+#include <array>
+#include <cstring>
+
 #include "tessera/output/hdf5_image.hpp"
+#include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
 
 namespace {
 
-void write_vertices(Hdf5Image& file, const Snapshot& snapshot) {
-  constexpr std::uint8_t vtk_vertex = 1;
-  const std::size_t n = snapshot.position.size();
-  const std::array<std::int64_t, 1> count = {static_cast<std::int64_t>(n)};
-  for (const char* name : {"/VTKHDF/NumberOfPoints", "/VTKHDF/NumberOfCells", "/VTKHDF/NumberOfConnectivityIds"})
-    file.array(name, count);
-  file.array("/VTKHDF/Points", evaluate(find_quantity("position", {}), snapshot), 3);
-  std::vector<std::int64_t> numbers(n + 1);
-  std::iota(numbers.begin(), numbers.end(), 0);
-  file.array("/VTKHDF/Offsets", numbers);
-  numbers.pop_back();
-  file.array("/VTKHDF/Connectivity", numbers);
-  file.array("/VTKHDF/Types", std::vector<std::uint8_t>(n, vtk_vertex));
+// Rows of a chunk: few enough that a block of particles stays in a core's cache, enough for a table of Huffman codes.
+constexpr std::size_t block_rows = 8192;
+
+ChunkedArray shaped(ElementType type, std::size_t rows, std::size_t columns) {
+  ChunkedArray array;
+  array.type = type;
+  array.rows = rows;
+  array.columns = columns;
+  array.chunk_rows = std::min(rows, block_rows);
+  array.chunks.resize((rows + block_rows - 1) / block_rows);
+  return array;
 }
 
-void write_quantity(Hdf5Image& file, const Quantity& quantity, const std::vector<double>& values) {
-  const std::string name = "/VTKHDF/PointData/" + std::string(quantity.name);
-  if (quantity.is_integer())
-    file.array(name, std::vector<std::int32_t>(values.begin(), values.end()));
-  else
-    file.array(name, values, quantity.components());
+template <class T>
+void convert(std::span<const double> values, std::vector<std::byte>& bytes) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const T value = static_cast<T>(values[i]);
+    std::memcpy(bytes.data() + i * sizeof(T), &value, sizeof(T));
+  }
+}
+
+/// `values` as elements of a chunk, which zeros fill up.
+void convert(std::span<const double> values, const ChunkedArray& array, std::vector<std::byte>& bytes) {
+  bytes.assign(array.chunk_bytes(), std::byte{0});
+  switch (array.type) {
+    case ElementType::float32:
+      return convert<float>(values, bytes);
+    case ElementType::float64:
+      return convert<double>(values, bytes);
+    case ElementType::int32:
+      return convert<std::int32_t>(values, bytes);
+    case ElementType::int64:
+      return convert<std::int64_t>(values, bytes);
+    case ElementType::uint8:
+      return convert<std::uint8_t>(values, bytes);
+  }
+}
+
+std::string compress(PlaneDeflater& deflater, const ChunkedArray& array, std::span<const std::byte> bytes) {
+  const bool floating = array.type == ElementType::float32 || array.type == ElementType::float64;
+  return floating ? deflater.numbers(bytes, width_of(array.type)) : deflater.integers(bytes, width_of(array.type));
+}
+
+VtkhdfFrame::Array named(const std::string& name, ChunkedArray&& array) {
+  return {name, std::make_shared<const ChunkedArray>(std::move(array))};
 }
 
 }  // namespace
 
-void write_field_vtkhdf(const std::string& path, const Snapshot& snapshot, QuantityList quantities) {
+VtkhdfFrames::VtkhdfFrames(std::span<const Quantity* const> quantities, FieldPrecision precision)
+    : precision_(precision),
+      workspaces_(std::make_unique<parallel::Workspaces<Workspace>>([] { return std::make_unique<Workspace>(); })) {
+  const Quantity* position = &find_quantity("position", {});
+  changing_.push_back({position, "/VTKHDF/Points", ElementType::float64});
+  for (const Quantity* quantity : quantities) {
+    std::string name = "/VTKHDF/PointData/" + std::string(quantity->name);
+    if (quantity == position)
+      copies_of_points_.push_back(std::move(name));
+    else
+      (quantity->variation == Variation::constant ? constant_ : changing_)
+          .push_back({quantity, std::move(name), type_of(*quantity)});
+  }
+}
+
+ElementType VtkhdfFrames::type_of(const Quantity& quantity) const {
+  if (quantity.is_integer()) return ElementType::int32;
+  const bool full = precision_ == FieldPrecision::full || quantity.exactness == Exactness::full;
+  return full ? ElementType::float64 : ElementType::float32;
+}
+
+VtkhdfFrame VtkhdfFrames::take(const SnapshotSource& source) {
+  const auto n = static_cast<std::size_t>(source.particles);
+  if (constants_.empty()) {
+    constants_ = compressed(source, constant_);
+    constants_.push_back(sequence("/VTKHDF/Offsets", n + 1));
+    constants_.push_back(sequence("/VTKHDF/Connectivity", n));
+    constants_.push_back(vertex_types(n));
+  }
+  VtkhdfFrame frame{source.time, n, compressed(source, changing_), copies_of_points_};
+  frame.arrays.insert(frame.arrays.end(), constants_.begin(), constants_.end());
+  return frame;
+}
+
+std::vector<VtkhdfFrame::Array> VtkhdfFrames::compressed(const SnapshotSource& source,
+                                                         std::span<const Column> columns) {
+  const auto n = static_cast<std::size_t>(source.particles);
+  std::vector<ChunkedArray> arrays;
+  for (const Column& c : columns)
+    arrays.push_back(shaped(c.type, n, static_cast<std::size_t>(c.quantity->components())));
+  parallel::for_tasks(static_cast<std::int64_t>((n + block_rows - 1) / block_rows), [&](std::int64_t block) {
+    const auto b = static_cast<std::size_t>(block);
+    const Snapshot part = source.part(static_cast<Index>(b * block_rows),
+                                      static_cast<Index>(std::min((b + 1) * block_rows, n)));
+    const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      evaluate(*columns[c].quantity, part, work->values);
+      convert(work->values, arrays[c], work->bytes);
+      arrays[c].chunks[b] = compress(work->deflater, arrays[c], work->bytes);
+    }
+  });
+  std::vector<VtkhdfFrame::Array> result;
+  for (std::size_t c = 0; c < columns.size(); ++c) result.push_back(named(columns[c].name, std::move(arrays[c])));
+  return result;
+}
+
+VtkhdfFrame::Array VtkhdfFrames::sequence(const std::string& name, std::size_t size) {
+  ChunkedArray array = shaped(ElementType::int64, size, 1);
+  parallel::for_tasks(static_cast<std::int64_t>(array.chunks.size()), [&](std::int64_t block) {
+    const auto b = static_cast<std::size_t>(block);
+    const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
+    work->values.clear();
+    for (std::size_t i = b * block_rows; i < std::min((b + 1) * block_rows, size); ++i)
+      work->values.push_back(static_cast<double>(i));
+    convert(work->values, array, work->bytes);
+    array.chunks[b] = compress(work->deflater, array, work->bytes);
+  });
+  return named(name, std::move(array));
+}
+
+VtkhdfFrame::Array VtkhdfFrames::vertex_types(std::size_t size) {
+  constexpr std::byte vtk_vertex{1};
+  ChunkedArray array = shaped(ElementType::uint8, size, 1);
+  const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
+  work->bytes.assign(array.chunk_bytes(), vtk_vertex);
+  for (std::string& chunk : array.chunks) chunk = compress(work->deflater, array, work->bytes);
+  return named("/VTKHDF/Types", std::move(array));
+}
+
+void write_field_vtkhdf(const std::string& path, const VtkhdfFrame& frame) {
   constexpr std::array<std::int64_t, 2> version = {1, 0};
   Hdf5Image file(Hdf5Storage::compressed);
   file.group("/VTKHDF");
   file.attribute("/VTKHDF", "Version", version);
   file.attribute("/VTKHDF", "Type", "UnstructuredGrid");
-  write_vertices(file, snapshot);
   file.group("/VTKHDF/PointData");
-  for (const Quantity* quantity : quantities) write_quantity(file, *quantity, evaluate(*quantity, snapshot));
   file.group("/VTKHDF/FieldData");
-  file.array("/VTKHDF/FieldData/TimeValue", std::array<double, 1>{snapshot.time});
+  file.array("/VTKHDF/FieldData/TimeValue", std::array<double, 1>{frame.time});
+  const std::array<std::int64_t, 1> count = {static_cast<std::int64_t>(frame.particles)};
+  for (const char* name : {"/VTKHDF/NumberOfPoints", "/VTKHDF/NumberOfCells", "/VTKHDF/NumberOfConnectivityIds"})
+    file.array(name, count);
+  for (const VtkhdfFrame::Array& array : frame.arrays) file.array(array.name, *array.values);
+  for (const std::string& name : frame.copies_of_points) file.link("/VTKHDF/Points", name);
   file.save(path, Durability::process);
 }
 

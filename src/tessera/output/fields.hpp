@@ -1,11 +1,15 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "tessera/base/index.hpp"
+#include "tessera/output/field_vtkhdf.hpp"
 #include "tessera/output/frame_index.hpp"
 #include "tessera/output/output_spec.hpp"
 #include "tessera/output/quantities.hpp"
@@ -13,6 +17,9 @@
 #include "tessera/tessellation/cells.hpp"
 
 namespace tessera {
+
+/// What is left to do for a frame that was taken.
+using WriteJob = std::function<void()>;
 
 /// The particles of a run as a time series of files: `fields_000000.hdf` .. with the index `fields.hdf.series`,
 /// `fields_000000.vtu` .. with `fields.pvd`, or `fields_000000.csv` .. with `fields.csv.series`.
@@ -23,16 +30,24 @@ class FieldSeries {
   /// Goes on with the series of an interrupted run; frames of later times are dropped.
   FieldSeries(const std::string& directory, const FieldsSpec& spec, const ContinueFrom& from);
 
-  /// Writes the next frame; does nothing when the last frame has the same time. Throws RunError when it cannot be
-  /// written; the index then still lists the frames before.
+  /// Takes the next frame and returns what is left to do: the job writes it and then names it in the index. Jobs may
+  /// run on another thread, in the order in which they were made and one after the other; `source` is needed no longer.
+  /// A job throws RunError when the frame cannot be written; the index then still lists the frames before.
+  WriteJob take(const SnapshotSource& source);
+  /// Writes the next frame at once; does nothing when the last frame has the same time.
   void write(const Snapshot& snapshot);
 
+  /// Time of the last frame that was taken [s].
+  std::optional<double> last_time() const { return last_time_; }
+  /// What is written; to be looked at when no job is under way.
   const FrameIndex& index() const { return index_; }
 
  private:
   FieldFormat format_;
   std::vector<const Quantity*> quantities_;
   FrameIndex index_;
+  std::optional<double> last_time_;
+  VtkhdfFrames frames_;
 };
 
 /// The cells of particles for pictures: convex parts of Voronoi cells, or tetrahedra whose corners are particles.
@@ -47,7 +62,8 @@ class CellSeries {
   CellSeries(const std::string& directory, const FieldsSpec& spec, CellGeometry cells);
   CellSeries(const std::string& directory, const FieldsSpec& spec, CellGeometry cells, const ContinueFrom& from);
 
-  /// As FieldSeries::write().
+  /// As FieldSeries::take() and write().
+  WriteJob take(std::shared_ptr<const Snapshot> snapshot);
   void write(const Snapshot& snapshot);
 
   const FrameIndex& index() const { return index_; }

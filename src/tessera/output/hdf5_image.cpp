@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "tessera/base/error.hpp"
@@ -47,16 +48,37 @@ Hdf5Id string_type(const std::string& value) {
   return type;
 }
 
-Hdf5Id storage_of(Hdf5Storage storage, std::span<const hsize_t> sizes, std::size_t item_bytes) {
+hid_t native(ElementType type) {
+  switch (type) {
+    case ElementType::float32:
+      return H5T_NATIVE_FLOAT;
+    case ElementType::float64:
+      return H5T_NATIVE_DOUBLE;
+    case ElementType::int32:
+      return H5T_NATIVE_INT32;
+    case ElementType::int64:
+      return H5T_NATIVE_INT64;
+    case ElementType::uint8:
+      break;
+  }
+  return H5T_NATIVE_UINT8;
+}
+
+/// Storage by shuffle and deflate in pieces of `rows` rows, of a table of `sizes`.
+Hdf5Id chunked_storage(std::span<const hsize_t> sizes, hsize_t rows) {
   Hdf5Id plist = timeless(H5P_DATASET_CREATE);
-  if (storage == Hdf5Storage::plain || sizes[0] == 0) return plist;  // chunks cannot be empty
-  const std::size_t row_bytes = item_bytes * (sizes.size() > 1 ? sizes[1] : 1);
   std::vector<hsize_t> chunk(sizes.begin(), sizes.end());
-  chunk[0] = std::clamp<hsize_t>(chunk_bytes / row_bytes, 1, sizes[0]);
+  chunk[0] = rows;
   good(H5Pset_chunk(plist.get(), static_cast<int>(chunk.size()), chunk.data()));
   good(H5Pset_shuffle(plist.get()));
   good(H5Pset_deflate(plist.get(), gzip_level));
   return plist;
+}
+
+Hdf5Id storage_of(Hdf5Storage storage, std::span<const hsize_t> sizes, std::size_t item_bytes) {
+  if (storage == Hdf5Storage::plain || sizes[0] == 0) return timeless(H5P_DATASET_CREATE);  // chunks cannot be empty
+  const std::size_t row_bytes = item_bytes * (sizes.size() > 1 ? sizes[1] : 1);
+  return chunked_storage(sizes, std::clamp<hsize_t>(chunk_bytes / row_bytes, 1, sizes[0]));
 }
 
 }  // namespace
@@ -111,6 +133,26 @@ void Hdf5Image::array(const std::string& name, std::span<const std::int64_t> val
 }
 void Hdf5Image::array(const std::string& name, std::span<const std::uint8_t> values, int columns) {
   array(name, H5T_NATIVE_UINT8, values.data(), values.size(), sizeof(std::uint8_t), columns);
+}
+
+void Hdf5Image::array(const std::string& name, const ChunkedArray& values) {
+  std::vector<hsize_t> sizes = {values.rows};
+  if (values.columns > 1) sizes.push_back(values.columns);
+  const Hdf5Id space = dataspace(sizes);
+  const Hdf5Id storage =
+      values.rows > 0 ? chunked_storage(sizes, values.chunk_rows) : timeless(H5P_DATASET_CREATE);
+  const Hdf5Id data(good(H5Dcreate2(file_.get(), name.c_str(), native(values.type), space.get(), H5P_DEFAULT,
+                                    storage.get(), H5P_DEFAULT)),
+                    H5Dclose);
+  std::array<hsize_t, 2> offset = {0, 0};
+  for (const std::string& chunk : values.chunks) {
+    good(H5Dwrite_chunk(data.get(), H5P_DEFAULT, 0, offset.data(), chunk.size(), chunk.data()));
+    offset[0] += values.chunk_rows;
+  }
+}
+
+void Hdf5Image::link(const std::string& existing, const std::string& name) {
+  good(H5Lcreate_hard(file_.get(), existing.c_str(), file_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
 }
 
 void Hdf5Image::text(const std::string& name, const std::string& value) {

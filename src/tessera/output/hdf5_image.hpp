@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tessera/output/chunked_array.hpp"
 #include "tessera/output/output_file.hpp"
 
 namespace tessera {
@@ -46,6 +47,10 @@ class Hdf5Image {
   void array(const std::string& name, std::span<const std::int32_t> values, int columns = 1);
   void array(const std::string& name, std::span<const std::int64_t> values, int columns = 1);
   void array(const std::string& name, std::span<const std::uint8_t> values, int columns = 1);
+  /// An array that is compressed already.
+  void array(const std::string& name, const ChunkedArray& values);
+  /// A second name for what is at `existing`.
+  void link(const std::string& existing, const std::string& name);
   void text(const std::string& name, const std::string& value);
   void attribute(const std::string& group, const std::string& name, std::span<const std::int64_t> values);
   void attribute(const std::string& group, const std::string& name, const std::string& value);

@@ -13,9 +13,13 @@ namespace tessera {
 
 enum class FieldFormat { vtkhdf, vtu, csv };
 
+/// How VTKHDF files hold numbers: by the quantity (Quantity::exactness), or all in double precision.
+enum class FieldPrecision { mixed, full };
+
 /// When field frames are written and what they hold. The first and the last state are always written.
 struct FieldsSpec {
   FieldFormat format = FieldFormat::vtkhdf;
+  FieldPrecision precision = FieldPrecision::mixed;
   std::optional<double> every;          // [s]; unset: first and last state only
   std::vector<std::string> quantities;  // names of the quantity table; empty: the default set
   bool cells = false;                   // also the cells of the tessellation, as polyhedra or tetrahedra (VTU)

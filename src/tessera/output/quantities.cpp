@@ -26,10 +26,13 @@ auto stored(const Snapshot& s, std::size_t a) {
 }
 
 using S = Snapshot;
+using enum Exactness;
+using enum Variation;
 
 const std::array<Quantity, 20> table = {{
-    {"reference_position", "m", "Position in the undeformed state.", Quantity::Vector(stored<&S::reference_position>)},
-    {"position", "m", "Current position.", Quantity::Vector(stored<&S::position>)},
+    {"reference_position", "m", "Position in the undeformed state.", Quantity::Vector(stored<&S::reference_position>),
+     full, constant},
+    {"position", "m", "Current position.", Quantity::Vector(stored<&S::position>), full},
     {"displacement", "m", "Current minus reference position.", Quantity::Vector(displacement)},
     {"velocity", "m/s", "Velocity, at the time of the positions.", Quantity::Vector(stored<&S::velocity>)},
     {"force", "N", "Total force: internal, contact, external and reactions.", Quantity::Vector(stored<&S::force>)},
@@ -37,21 +40,22 @@ const std::array<Quantity, 20> table = {{
     {"contact_force", "N", "Force from the bonds.", Quantity::Vector(stored<&S::contact_force>)},
     {"external_force", "N", "Force from tractions, gravity and damping.", Quantity::Vector(stored<&S::external_force>)},
     {"deformation_gradient", "-", "Mean deformation gradient F of the cell.",
-     Quantity::Tensor(stored<&S::deformation_gradient>)},
+     Quantity::Tensor(stored<&S::deformation_gradient>), full},
     {"first_piola_kirchhoff", "Pa", "First Piola-Kirchhoff stress P, viscous part included.",
      Quantity::Tensor(stored<&S::first_piola_kirchhoff>)},
     {"cauchy_stress", "Pa", "Cauchy stress P F^T / J, viscous part included.", Quantity::Tensor(cauchy_stress)},
     {"von_mises", "Pa", "Von Mises stress of the Cauchy stress.", Quantity::Scalar(von_mises_of)},
     {"pressure", "Pa", "Minus a third of the trace of the Cauchy stress.", Quantity::Scalar(pressure)},
-    {"volume", "m3", "Volume of the cell in the undeformed state.", Quantity::Scalar(stored<&S::volume>)},
-    {"J", "-", "Ratio of current to reference volume, det F.", Quantity::Scalar(volume_ratio)},
-    {"mass", "kg", "Mass of the particle.", Quantity::Scalar(stored<&S::mass>)},
+    {"volume", "m3", "Volume of the cell in the undeformed state.", Quantity::Scalar(stored<&S::volume>), full,
+     constant},
+    {"J", "-", "Ratio of current to reference volume, det F.", Quantity::Scalar(volume_ratio), full},
+    {"mass", "kg", "Mass of the particle.", Quantity::Scalar(stored<&S::mass>), full, constant},
     {"energy_density", "J/m3", "Strain energy per reference volume.", Quantity::Scalar(stored<&S::energy_density>)},
-    {"body", "-", "Number of the body, in the order of the case file.", Quantity::Integer(stored<&S::body>)},
+    {"body", "-", "Number of the body, in the order of the case file.", Quantity::Integer(stored<&S::body>), full, constant},
     {"material", "-", "Number of the material, in the order of the case file.",
-     Quantity::Integer(stored<&S::material>)},
+     Quantity::Integer(stored<&S::material>), full, constant},
     {"particle_id", "-", "Number of the particle, in the order in which it was given or generated.",
-     Quantity::Integer([](const Snapshot&, std::size_t a) { return static_cast<Index>(a); })},
+     Quantity::Integer([](const Snapshot& s, std::size_t a) { return s.first + static_cast<Index>(a); }), full, constant},
 }};
 
 const std::array<std::string, 10> default_names = {"displacement",  "velocity",  "force",    "deformation_gradient",
@@ -114,11 +118,20 @@ void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::size_t pa
   std::visit([&](auto value) { store(value(snapshot, particle), out); }, quantity.value);
 }
 
-std::vector<double> evaluate(const Quantity& quantity, const Snapshot& snapshot) {
+void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::vector<double>& out) {
   const auto components = static_cast<std::size_t>(quantity.components());
-  std::vector<double> values(snapshot.position.size() * components);
-  for (std::size_t a = 0; a < snapshot.position.size(); ++a)
-    evaluate(quantity, snapshot, a, values.data() + components * a);
+  out.resize(snapshot.position.size() * components);
+  std::visit(
+      [&](auto value) {
+        for (std::size_t a = 0; a < snapshot.position.size(); ++a)
+          store(value(snapshot, a), out.data() + components * a);
+      },
+      quantity.value);
+}
+
+std::vector<double> evaluate(const Quantity& quantity, const Snapshot& snapshot) {
+  std::vector<double> values;
+  evaluate(quantity, snapshot, values);
   return values;
 }
 

@@ -11,6 +11,13 @@
 
 namespace tessera {
 
+/// How a frame of `precision = "mixed"` holds a quantity: in single precision what stands for itself, in double what
+/// matters by small differences (from the undeformed state, or among neighbours).
+enum class Exactness { single, full };
+
+/// Whether frames of one run can differ in a quantity.
+enum class Variation { constant, changing };
+
 /// A named value of a particle that fields and probes can hold.
 struct Quantity {
   using Scalar = double (*)(const Snapshot&, std::size_t particle);
@@ -22,6 +29,8 @@ struct Quantity {
   std::string_view unit;     // "-" for pure numbers
   std::string_view meaning;  // one sentence
   std::variant<Scalar, Integer, Vector, Tensor> value;
+  Exactness exactness = Exactness::single;
+  Variation variation = Variation::changing;
 
   /// 1, 3 (x, y, z) or 9 (row by row).
   int components() const;
@@ -47,6 +56,8 @@ void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::size_t pa
 
 /// The components of all particles, particle by particle.
 std::vector<double> evaluate(const Quantity& quantity, const Snapshot& snapshot);
+/// The same into `out`, whose memory is used again.
+void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::vector<double>& out);
 
 /// The Cauchy stress P F^T / J of a particle [Pa].
 Mat3 cauchy_stress(const Snapshot& snapshot, std::size_t particle);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,11 @@
 namespace tessera {
 
 /// The state of all particles at one time, in the order in which the user gave or generated the particles
-/// (not the order in memory). Velocities belong to the same time as positions.
+/// (not the order in memory), or of consecutive ones among them. Velocities belong to the same time as positions.
 struct Snapshot {
   double time = 0.0;      // [s]
   std::int64_t step = 0;  // steps done
+  Index first = 0;        // number of the first particle
 
   std::vector<Index> body;                  // number of the body
   std::vector<Index> material;              // number of the material
@@ -30,6 +32,18 @@ struct Snapshot {
   std::vector<double> mass;                 // [kg]
   std::vector<double> energy_density;       // U(F_a) [J/m3]
 };
+
+/// A state of which snapshots can be taken piece by piece, so that the whole need not be held at once.
+struct SnapshotSource {
+  double time = 0.0;    // [s]
+  Index particles = 0;  // in all
+  /// Particles [begin, end), by the user's numbers. May be called from several threads at once; the state must not
+  /// have moved on.
+  std::function<Snapshot(Index begin, Index end)> part;
+};
+
+/// The pieces of a snapshot of all particles, which must outlive them.
+SnapshotSource parts_of(const Snapshot& all);
 
 /// The energies of a system at one time [J].
 struct EnergyLedger {

@@ -66,6 +66,8 @@ void set_threads(int n) {
 
 namespace detail {
 
+void keep_to_this_thread() { inside = true; }
+
 void run_blocks(std::int64_t blocks, void (*body)(void*, std::int64_t), void* context) {
   if (blocks < fewest_blocks || threads() == 1 || inside) {
     for (std::int64_t b = 0; b < blocks; ++b) body(context, b);

@@ -22,7 +22,9 @@ inline constexpr std::int64_t block_size = 1024;
 
 namespace detail {
 void run_blocks(std::int64_t blocks, void (*body)(void* context, std::int64_t block), void* context);
-}
+/// From now on loops of the calling thread run on it alone.
+void keep_to_this_thread();
+}  // namespace detail
 
 /// Calls body(begin, end) for consecutive ranges that cover [first, last).
 template <class Body>

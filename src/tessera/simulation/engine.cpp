@@ -127,55 +127,6 @@ double Engine::largest_force() const {
   return largest;
 }
 
-Snapshot Engine::snapshot() const {
-  const System& s = model_.system;
-  const Forces::Internal internal = forces_.internal(state_);
-  const auto n = static_cast<std::size_t>(s.particles());
-  Snapshot shot;
-  shot.time = time_;
-  shot.step = step_;
-  shot.body.resize(n);
-  shot.material.resize(n);
-  shot.volume.resize(n);
-  shot.mass.resize(n);
-  shot.energy_density.resize(n);
-  shot.deformation_gradient.resize(n);
-  shot.first_piola_kirchhoff.resize(n);
-  for (auto* vectors : {&shot.reference_position, &shot.position, &shot.velocity, &shot.force, &shot.internal_force,
-                        &shot.contact_force, &shot.external_force})
-    vectors->resize(n);
-
-  std::vector<Vec3> external(n);
-  for (const NodalForce& l : model_.loads.tractions.forces()) external[static_cast<std::size_t>(l.particle)] += l.force;
-  for (std::size_t a = 0; a < n; ++a) {
-    const auto u = static_cast<std::size_t>(model_.user_number[a]);
-    const Material& m = s.materials[static_cast<std::size_t>(model_.material_of[a])];
-    const Vec3 v = leapfrog_.velocity(state_, forces_, dt_, static_cast<Index>(a));
-    const Vec3 weight = s.mass[a] * model_.loads.gravity, drag = (-leapfrog_.damping() * s.mass[a]) * v;
-    const Vec3 total = to_vec3(forces_.total()[a]);
-    shot.body[u] = model_.body_of[a];
-    shot.material[u] = model_.material_of[a];
-    shot.reference_position[u] = s.d.X[a];
-    shot.position[u] = to_vec3(state_.x[a]);
-    shot.velocity[u] = v;
-    shot.force[u] = total + drag;
-    shot.internal_force[u] = to_vec3(internal.force[a]);
-    shot.contact_force[u] = total - external[a] - weight - shot.internal_force[u];
-    shot.external_force[u] = external[a] + weight + drag;
-    shot.deformation_gradient[u] = to_mat3(forces_.deformation_gradient()[a]);
-    shot.first_piola_kirchhoff[u] = to_mat3(internal.P[a]);
-    shot.volume[u] = s.d.volume[a];
-    shot.mass[u] = s.mass[a];
-    shot.energy_density[u] =
-        std::visit([&](const auto& law) { return law.energy(shot.deformation_gradient[u]); }, m.law);
-  }
-  for (std::size_t i = 0; i < s.d.constraints.size(); ++i) {
-    const auto u = static_cast<std::size_t>(model_.user_number[static_cast<std::size_t>(s.d.constraints[i].particle)]);
-    shot.force[u] -= leapfrog_.reactions()[i];
-  }
-  return shot;
-}
-
 void Engine::fail(Index particle, const std::string& reason) const {
   const auto a = static_cast<std::size_t>(particle);
   const Vec3 x = to_vec3(state_.x[a]);

@@ -38,6 +38,8 @@ class Engine {
   Momentum momentum() const;
   const Momentum& initial_momentum() const { return initial_momentum_; }
   Snapshot snapshot() const;
+  /// Snapshots of parts; valid until the engine moves on.
+  SnapshotSource snapshots() const;
   /// Force on what prescribes the motion of each boundary node (voronoi) or constrained particle (delaunay) [N].
   const std::vector<Vec3>& reactions() const;
   /// Largest force on a particle, components without prescribed motion only [N].
@@ -59,6 +61,8 @@ class Engine {
   double stored_energy() const;
   [[noreturn]] void fail(Index particle, const std::string& reason) const;
   void check_same_model(const Checkpoint& c) const;
+  struct Observation;
+  Snapshot snapshot_of(const Observation& seen, Index begin, Index end) const;
 
   Model& model_;
   TimeSpec spec_;

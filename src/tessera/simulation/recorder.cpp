@@ -136,12 +136,13 @@ Recorder::Recorder(const Case& c, const Model& model, const Engine& engine, cons
 }
 
 void Recorder::write_if_due(const Engine& engine) {
+  background_.check();
   const double t = engine.time();
   if (history_every_ <= 0.0 || multiples(t, history_every_) >= next_row_) {
     history_.append(rows_.row(engine));
     if (history_every_ > 0.0) next_row_ = multiples(t, history_every_) + 1;
   }
-  if (fields_every_ ? multiples(t, *fields_every_) >= next_frame_ : fields_.index().size() == 0) {
+  if (fields_every_ ? multiples(t, *fields_every_) >= next_frame_ : !fields_.last_time()) {
     write_fields(engine);
     if (fields_every_) next_frame_ = multiples(t, *fields_every_) + 1;
   }
@@ -152,10 +153,17 @@ void Recorder::write(const Engine& engine) {
   write_fields(engine);
 }
 
+void Recorder::complete() { background_.wait(); }
+
 void Recorder::write_fields(const Engine& engine) {
-  const Snapshot snapshot = engine.snapshot();
-  fields_.write(snapshot);
-  if (cells_) cells_->write(snapshot);
+  if (fields_.last_time() == engine.time()) return;
+  background_.wait();
+  const SnapshotSource source = engine.snapshots();
+  std::vector<WriteJob> jobs = {fields_.take(source)};
+  if (cells_) jobs.push_back(cells_->take(std::make_shared<const Snapshot>(source.part(0, source.particles))));
+  background_.start([jobs = std::move(jobs)] {
+    for (const WriteJob& job : jobs) job();
+  });
 }
 
 }  // namespace tessera

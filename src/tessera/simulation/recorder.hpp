@@ -7,6 +7,7 @@
 #include "tessera/output/fields.hpp"
 #include "tessera/output/history.hpp"
 #include "tessera/output/probes.hpp"
+#include "tessera/parallel/background.hpp"
 #include "tessera/simulation/engine.hpp"
 
 namespace tessera {
@@ -37,16 +38,23 @@ class HistoryRows {
   bool needs_snapshot_ = false;
 };
 
-/// Writes fields, cells and history when they are due.
+/// Writes fields, cells and history when they are due. Frames are taken at once and written in the background, one at a
+/// time: a run waits for the frame before when it wants to take the next, so that frames never pile up in memory.
 class Recorder {
  public:
   Recorder(const Case& c, const Model& model, const Engine& engine, const std::string& directory,
            const std::optional<ContinueFrom>& from);
 
-  /// Writes what is due at the engine's present time, on which prepare() was called.
+  /// Writes what is due at the engine's present time, on which prepare() was called. Throws RunError when that fails,
+  /// or when a frame taken before could not be written.
   void write_if_due(const Engine& engine);
   /// Writes a frame and a row whether due or not (equal times are written once).
   void write(const Engine& engine);
+  /// Returns when every frame taken so far is on the disk and in the index; throws RunError when one is not. To be called
+  /// before a checkpoint: a resumed run does not write what came before it.
+  void complete();
+  /// As complete(), for a run that has failed already: a frame that cannot be written is left out.
+  void settle() noexcept { background_.settle(); }
 
  private:
   void write_fields(const Engine& engine);
@@ -58,6 +66,7 @@ class Recorder {
   std::optional<double> fields_every_;
   double history_every_;
   std::int64_t next_frame_ = 0, next_row_ = 0;  // number of the next multiple of `every`
+  parallel::Background background_;           // last: what it does uses the members above
 };
 
 }  // namespace tessera

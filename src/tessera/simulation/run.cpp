@@ -78,6 +78,8 @@ class Run {
   void steps();
   void observe();
   void keep_going();
+  void write_last_state();
+  void save_checkpoint();
   void leave_last_good_state();
   void summarise(const std::string& status, const std::string& message);
 
@@ -119,6 +121,7 @@ Run::Run(const Case& c, const RunOptions& options) : case_(c), options_(options)
 void Run::execute() {
   try {
     steps();
+    write_last_state();
   } catch (const Interrupted& e) {
     progress_->interrupt();
     write_checkpoint(checkpoint_path(options_.directory), engine_->checkpoint());
@@ -130,8 +133,19 @@ void Run::execute() {
     summarise("failed", e.what());
     throw;
   }
-  recorder_->write(*engine_);
   summarise("done", "");
+}
+
+void Run::write_last_state() {
+  const Stopwatch watch(wall_.output);
+  recorder_->write(*engine_);
+  recorder_->complete();
+}
+
+/// Only after all frames up to now: resumed, the run goes on with those that come later.
+void Run::save_checkpoint() {
+  recorder_->complete();
+  write_checkpoint(checkpoint_path(options_.directory), engine_->checkpoint());
 }
 
 void Run::steps() {
@@ -143,8 +157,7 @@ void Run::steps() {
     engine_->advance();
     engine_->verify_deformation();
   }
-  if (case_.output.checkpoint.every_time || case_.output.checkpoint.every_wall)
-    write_checkpoint(checkpoint_path(options_.directory), engine_->checkpoint());
+  if (case_.output.checkpoint.every_time || case_.output.checkpoint.every_wall) save_checkpoint();
   engine_->prepare();
   observe();
   progress_->finish(engine_->time(), engine_->steps(), engine_->energies().relative_error());
@@ -153,12 +166,16 @@ void Run::steps() {
 /// Checkpoints, the backup to fall back to, and the wish to stop.
 void Run::keep_going() {
   const Stopwatch watch(wall_.output);
-  if ((engine_->steps() - first_step_) % backup_interval == 0) backup_ = engine_->checkpoint();
-  if (const int signal = StopSignals::received(); signal != 0)
+  if ((engine_->steps() - first_step_) % backup_interval == 0) {
+    recorder_->complete();  // as before a checkpoint, which the backup may become
+    backup_ = engine_->checkpoint();
+  }
+  if (const int signal = StopSignals::received(); signal != 0) {
+    recorder_->complete();
     throw Interrupted(fmt::format("stopped by signal {} at step {}, t = {:g} s; go on with --resume", signal,
                                   engine_->steps(), engine_->time()));
-  if (checkpoint_timer_->due(engine_->time()))
-    write_checkpoint(checkpoint_path(options_.directory), engine_->checkpoint());
+  }
+  if (checkpoint_timer_->due(engine_->time())) save_checkpoint();
 }
 
 void Run::observe() {
@@ -171,6 +188,7 @@ void Run::observe() {
 }
 
 void Run::leave_last_good_state() {
+  recorder_->settle();
   engine_->restore(backup_);
   write_checkpoint(checkpoint_path(options_.directory), backup_);
   engine_->prepare();

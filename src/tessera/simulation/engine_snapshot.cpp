@@ -1,0 +1,84 @@
+#include <memory>
+
+#include "tessera/parallel/parallel.hpp"
+#include "tessera/simulation/engine.hpp"
+
+namespace tessera {
+
+namespace {
+
+/// A snapshot with room for n particles.
+Snapshot sized(std::size_t n) {
+  Snapshot shot;
+  for (auto* indices : {&shot.body, &shot.material}) indices->resize(n);
+  for (auto* scalars : {&shot.volume, &shot.mass, &shot.energy_density}) scalars->resize(n);
+  for (auto* tensors : {&shot.deformation_gradient, &shot.first_piola_kirchhoff}) tensors->resize(n);
+  for (auto* vectors : {&shot.reference_position, &shot.position, &shot.velocity, &shot.force, &shot.internal_force,
+                        &shot.contact_force, &shot.external_force})
+    vectors->resize(n);
+  return shot;
+}
+
+/// Entry a, or nothing where there are no entries at all.
+Vec3 entry(const std::vector<Vec3>& values, std::size_t a) { return values.empty() ? Vec3{} : values[a]; }
+
+}  // namespace
+
+/// What snapshots need beside the engine's own state, computed once for all of them.
+struct Engine::Observation {
+  Forces::Internal internal;
+  std::vector<Vec3> traction, reaction;  // of each particle; empty without any
+  std::vector<Index> particle;           // with the user's number
+};
+
+SnapshotSource Engine::snapshots() const {
+  const System& s = model_.system;
+  const auto n = static_cast<std::size_t>(s.particles());
+  auto seen = std::make_shared<Observation>(Observation{forces_.internal(state_), {}, {}, std::vector<Index>(n)});
+  parallel::for_each(s.particles(), [&](std::int64_t a) {
+    seen->particle[static_cast<std::size_t>(model_.user_number[static_cast<std::size_t>(a)])] = static_cast<Index>(a);
+  });
+  if (!model_.loads.tractions.forces().empty()) seen->traction.resize(n);
+  for (const NodalForce& l : model_.loads.tractions.forces())
+    seen->traction[static_cast<std::size_t>(l.particle)] += l.force;
+  if (!s.d.constraints.empty()) seen->reaction.resize(n);
+  for (std::size_t i = 0; i < s.d.constraints.size(); ++i)
+    seen->reaction[static_cast<std::size_t>(s.d.constraints[i].particle)] += leapfrog_.reactions()[i];
+  return {time_, s.particles(), [this, seen](Index begin, Index end) { return snapshot_of(*seen, begin, end); }};
+}
+
+Snapshot Engine::snapshot() const { return snapshots().part(0, model_.system.particles()); }
+
+Snapshot Engine::snapshot_of(const Observation& seen, Index begin, Index end) const {
+  const System& s = model_.system;
+  Snapshot shot = sized(static_cast<std::size_t>(end - begin));
+  shot.time = time_;
+  shot.step = step_;
+  shot.first = begin;
+  parallel::for_each(end - begin, [&](std::int64_t i) {
+    const auto u = static_cast<std::size_t>(i);
+    const auto a = static_cast<std::size_t>(seen.particle[static_cast<std::size_t>(begin + i)]);
+    const Material& m = s.materials[static_cast<std::size_t>(model_.material_of[a])];
+    const Vec3 v = leapfrog_.velocity(state_, forces_, dt_, static_cast<Index>(a));
+    const Vec3 weight = s.mass[a] * model_.loads.gravity, drag = (-leapfrog_.damping() * s.mass[a]) * v;
+    const Vec3 total = to_vec3(forces_.total()[a]), traction = entry(seen.traction, a);
+    shot.body[u] = model_.body_of[a];
+    shot.material[u] = model_.material_of[a];
+    shot.reference_position[u] = s.d.X[a];
+    shot.position[u] = to_vec3(state_.x[a]);
+    shot.velocity[u] = v;
+    shot.force[u] = total + drag - entry(seen.reaction, a);
+    shot.internal_force[u] = to_vec3(seen.internal.force[a]);
+    shot.contact_force[u] = total - traction - weight - shot.internal_force[u];
+    shot.external_force[u] = traction + weight + drag;
+    shot.deformation_gradient[u] = to_mat3(forces_.deformation_gradient()[a]);
+    shot.first_piola_kirchhoff[u] = to_mat3(seen.internal.P[a]);
+    shot.volume[u] = s.d.volume[a];
+    shot.mass[u] = s.mass[a];
+    shot.energy_density[u] =
+        std::visit([&](const auto& law) { return law.energy(shot.deformation_gradient[u]); }, m.law);
+  });
+  return shot;
+}
+
+}  // namespace tessera
