@@ -1,36 +1,28 @@
 #include "tessera/output/plane_deflater.hpp"
 
-#include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "tessera/base/error.hpp"
+#include "tessera/output/deflate_blocks.hpp"
 
 namespace tessera {
 
 namespace {
 
-constexpr int stored = 0, quickest = 1;  // zlib's levels; higher ones take several times longer and save little
-constexpr int window_bits = 15, memory_level = 9;
-constexpr std::size_t sample_stride = 8;
-constexpr double noise = 7.5;  // bits a byte above which coding would save less than a sixteenth
+constexpr int zlib_level = 1;  // higher ones take several times longer and save little
+constexpr std::uint64_t zlib_header = 0x0178;  // RFC 1950: window of 32 kB, quickest
+constexpr std::size_t ends_of_stream = 32;     // header, last block, checksum and what BitWriter touches
 
-/// Of the bytes' distribution, from every eighth byte [bits].
-double entropy(std::span<const std::byte> bytes) {
-  std::array<std::uint32_t, 256> counts{};
-  for (std::size_t i = 0; i < bytes.size(); i += sample_stride) ++counts[static_cast<std::size_t>(bytes[i])];
-  const double all = static_cast<double>((bytes.size() + sample_stride - 1) / sample_stride);
-  double sum = 0.0;
-  for (const std::uint32_t count : counts)
-    if (count > 0) sum -= count / all * std::log2(count / all);
-  return sum;
-}
-
-template <std::size_t width>
-void split(const std::byte* values, std::byte* planes, std::size_t count) {
-  // Few planes' lines at a time stay in the first cache.
-  for (std::size_t k = 0; k < width; ++k)
-    for (std::size_t i = 0; i < count; ++i) planes[k * count + i] = values[i * width + k];
+/// Byte k of each value. Shifts of whole words are what the compiler can do for many at once.
+template <class Word>
+void split(const unsigned char* values, unsigned char* planes, std::size_t count) {
+  for (std::size_t k = 0; k < sizeof(Word); ++k)
+    for (std::size_t i = 0; i < count; ++i) {
+      Word word;
+      std::memcpy(&word, values + i * sizeof(Word), sizeof(Word));
+      planes[k * count + i] = static_cast<unsigned char>(word >> 8 * k);
+    }
 }
 
 [[noreturn]] void fail() { throw RunError("zlib could not compress a field: out of memory"); }
@@ -38,63 +30,43 @@ void split(const std::byte* values, std::byte* planes, std::size_t count) {
 }  // namespace
 
 PlaneDeflater::PlaneDeflater() {
-  if (deflateInit2(&stream_, quickest, Z_DEFLATED, window_bits, memory_level, Z_RLE) != Z_OK) fail();
+  if (deflateInit(&stream_, zlib_level) != Z_OK) fail();
 }
 
 PlaneDeflater::~PlaneDeflater() { deflateEnd(&stream_); }
 
 std::string PlaneDeflater::numbers(std::span<const std::byte> values, std::size_t width) {
   shuffle(values, width);
-  begin(values.size());
   const std::size_t count = values.size() / width;
-  for (std::size_t k = 0; k < width; ++k) {
-    const std::span<std::byte> plane = std::span(planes_).subspan(k * count, count);
-    if (entropy(plane) > noise)
-      set(stored, Z_DEFAULT_STRATEGY);
-    else
-      set(quickest, Z_RLE);
-    feed(plane, k + 1 < width ? Z_BLOCK : Z_FINISH);
-  }
-  return end();
+  out_.resize(width * largest_block(count) + ends_of_stream);
+  BitWriter out(out_.data());
+  out.put(zlib_header, 16);
+  for (std::size_t k = 0; k < width; ++k) put_block(out, std::span(planes_).subspan(k * count, count));
+  put_last_block(out);
+  const auto checksum = adler32_z(adler32(0, nullptr, 0), planes_.data(), planes_.size());
+  for (unsigned shift : {24U, 16U, 8U, 0U}) out.put(checksum >> shift & 255U, 8);
+  return std::string(static_cast<const unsigned char*>(out_.data()), out.end());
 }
 
 std::string PlaneDeflater::integers(std::span<const std::byte> values, std::size_t width) {
   shuffle(values, width);
-  begin(values.size());
-  set(quickest, Z_DEFAULT_STRATEGY);
-  feed(planes_, Z_FINISH);
-  return end();
+  if (deflateReset(&stream_) != Z_OK) fail();
+  out_.resize(deflateBound(&stream_, planes_.size()));
+  stream_.next_in = planes_.data();
+  stream_.avail_in = static_cast<uInt>(planes_.size());
+  stream_.next_out = out_.data();
+  stream_.avail_out = static_cast<uInt>(out_.size());
+  if (deflate(&stream_, Z_FINISH) != Z_STREAM_END) fail();
+  return std::string(out_.data(), out_.data() + stream_.total_out);
 }
 
 void PlaneDeflater::shuffle(std::span<const std::byte> values, std::size_t width) {
   planes_.resize(values.size());
+  const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
   const std::size_t count = values.size() / width;
-  if (width == 8) return split<8>(values.data(), planes_.data(), count);
-  if (width == 4) return split<4>(values.data(), planes_.data(), count);
-  planes_.assign(values.begin(), values.end());  // single bytes
+  if (width == 8) return split<std::uint64_t>(bytes, planes_.data(), count);
+  if (width == 4) return split<std::uint32_t>(bytes, planes_.data(), count);
+  planes_.assign(bytes, bytes + values.size());  // single bytes
 }
-
-void PlaneDeflater::begin(std::size_t size) {
-  if (deflateReset(&stream_) != Z_OK) fail();
-  constexpr std::size_t headers_of_planes = 4096;  // more than blocks of eight planes need beside their content
-  out_.resize(deflateBound(&stream_, size) + headers_of_planes);
-  stream_.next_out = reinterpret_cast<Bytef*>(out_.data());
-  stream_.avail_out = static_cast<uInt>(out_.size());
-  stream_.avail_in = 0;
-}
-
-void PlaneDeflater::set(int level, int strategy) {
-  if (deflateParams(&stream_, level, strategy) != Z_OK) fail();
-}
-
-void PlaneDeflater::feed(std::span<std::byte> bytes, int flush) {
-  stream_.next_in = reinterpret_cast<Bytef*>(bytes.data());
-  stream_.avail_in = static_cast<uInt>(bytes.size());
-  const int status = deflate(&stream_, flush);
-  const bool complete = flush == Z_FINISH ? status == Z_STREAM_END : status == Z_OK && stream_.avail_in == 0;
-  if (!complete) fail();
-}
-
-std::string PlaneDeflater::end() { return {out_.data(), out_.size() - stream_.avail_out}; }
 
 }  // namespace tessera

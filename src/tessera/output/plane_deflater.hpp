@@ -28,14 +28,9 @@ class PlaneDeflater {
 
  private:
   void shuffle(std::span<const std::byte> values, std::size_t width);
-  void begin(std::size_t size);
-  void set(int level, int strategy);
-  void feed(std::span<std::byte> bytes, int flush);
-  std::string end();
 
-  z_stream stream_{};
-  std::vector<std::byte> planes_;
-  std::string out_;
+  z_stream stream_{};                   // for integers
+  std::vector<unsigned char> planes_, out_;
 };
 
 }  // namespace tessera
