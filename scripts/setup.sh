@@ -13,7 +13,7 @@ optional=()  # what only some tests need
 list_only=no
 for argument in "$@"; do
   case "$argument" in
-    --test) optional+=(python3-vtk9 valgrind) ;;  # read result files as ParaView does; count instructions
+    --test) optional+=(python3-vtk9 python3-numpy valgrind) ;;  # read result files as ParaView does; count instructions
     --list) list_only=yes ;;
     *) echo "setup.sh: unknown argument '$argument' (allowed: --test, --list)" >&2; exit 2 ;;
   esac

@@ -14,7 +14,7 @@ constexpr std::size_t literals = 256, end_of_block = 256, first_length = 257, sy
 constexpr int longest_code = 15, longest_length_code = 7;
 constexpr std::size_t shortest_run = 3, longest_run = 258;
 constexpr std::size_t few = 1024;  // a table of codes would hardly pay
-constexpr double noise = 7.5;     // bits a byte above which codes would save less than a sixteenth
+constexpr double noise = 7.5;      // bits a byte above which codes would save less than a sixteenth
 
 /// RFC 1951, 3.2.5: lengths of runs from which the codes 257, 258 .. count on, and the bits that tell how far.
 constexpr std::array<std::uint16_t, 29> run_base = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
@@ -22,7 +22,8 @@ constexpr std::array<std::uint16_t, 29> run_base = {3,  4,  5,  6,  7,  8,  9,  
 constexpr std::array<std::uint8_t, 29> run_bits = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
                                                    2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0};
 /// RFC 1951, 3.2.7: the order in which the lengths of the code for code lengths come.
-constexpr std::array<std::uint8_t, 19> length_order = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
+constexpr std::array<std::uint8_t, 19> length_order = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                       11, 4,  12, 3, 13, 2, 14, 1, 15};
 
 std::size_t code_of_run(std::size_t length) {
   return static_cast<std::size_t>(std::upper_bound(run_base.begin(), run_base.end(), length) - run_base.begin()) - 1;
@@ -83,7 +84,8 @@ double entropy(Bytes bytes) {
   return sum;
 }
 
-/// The lengths of a block's codes in the alphabet that tells them: a length, or 18 or 17 for many or few absent symbols.
+/// The lengths of a block's codes in the alphabet that tells them: a length, or 18 or 17 for many or few absent
+/// symbols.
 struct Lengths {
   std::vector<std::uint8_t> symbol, absent;  // absent: how many, beyond the least
 };
@@ -138,7 +140,8 @@ void put_coded(BitWriter& out, Bytes bytes, const HuffmanCode& code) {
   std::size_t i = 0;
   for (; i + 3 <= bytes.size(); i += 3) {
     const Entry a = table[bytes[i]], b = table[bytes[i + 1]], c = table[bytes[i + 2]];
-    const std::uint64_t bits = a.bits | std::uint64_t{b.bits} << a.length | std::uint64_t{c.bits} << (a.length + b.length);
+    const std::uint64_t bits =
+        a.bits | std::uint64_t{b.bits} << a.length | std::uint64_t{c.bits} << (a.length + b.length);
     out.put(bits, a.length + b.length + c.length);
   }
   for (; i < bytes.size(); ++i) code.put(out, bytes[i]);

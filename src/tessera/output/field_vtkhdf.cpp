@@ -102,8 +102,8 @@ std::vector<VtkhdfFrame::Array> VtkhdfFrames::compressed(const SnapshotSource& s
     arrays.push_back(shaped(c.type, n, static_cast<std::size_t>(c.quantity->components())));
   parallel::for_tasks(static_cast<std::int64_t>((n + block_rows - 1) / block_rows), [&](std::int64_t block) {
     const auto b = static_cast<std::size_t>(block);
-    const Snapshot part = source.part(static_cast<Index>(b * block_rows),
-                                      static_cast<Index>(std::min((b + 1) * block_rows, n)));
+    const Snapshot part =
+        source.part(static_cast<Index>(b * block_rows), static_cast<Index>(std::min((b + 1) * block_rows, n)));
     const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       evaluate(*columns[c].quantity, part, work->values);

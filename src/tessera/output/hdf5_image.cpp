@@ -139,8 +139,7 @@ void Hdf5Image::array(const std::string& name, const ChunkedArray& values) {
   std::vector<hsize_t> sizes = {values.rows};
   if (values.columns > 1) sizes.push_back(values.columns);
   const Hdf5Id space = dataspace(sizes);
-  const Hdf5Id storage =
-      values.rows > 0 ? chunked_storage(sizes, values.chunk_rows) : timeless(H5P_DATASET_CREATE);
+  const Hdf5Id storage = values.rows > 0 ? chunked_storage(sizes, values.chunk_rows) : timeless(H5P_DATASET_CREATE);
   const Hdf5Id data(good(H5Dcreate2(file_.get(), name.c_str(), native(values.type), space.get(), H5P_DEFAULT,
                                     storage.get(), H5P_DEFAULT)),
                     H5Dclose);

@@ -24,7 +24,7 @@ std::vector<std::uint16_t> by_count(std::span<const std::uint32_t> counts) {
 /// come out in the order of their counts, so two queues do.
 std::vector<int> depths(std::span<const std::uint32_t> counts, std::span<const std::uint16_t> leaves) {
   const std::size_t n = leaves.size();
-  std::vector<std::uint64_t> joined;            // counts of inner nodes
+  std::vector<std::uint64_t> joined;           // counts of inner nodes
   std::vector<std::size_t> parent(2 * n - 1);  // leaves first, then inner nodes
   std::size_t leaf = 0, inner = 0;
   const auto rarest = [&](std::uint64_t& count) {
@@ -64,8 +64,7 @@ std::uint16_t reversed(std::uint32_t bits, int count) {
 }  // namespace
 
 HuffmanCode huffman_code(std::span<const std::uint32_t> counts, int longest) {
-  HuffmanCode code{std::vector<std::uint16_t>(counts.size(), 0),
-                   lengths_of({counts.begin(), counts.end()}, longest)};
+  HuffmanCode code{std::vector<std::uint16_t>(counts.size(), 0), lengths_of({counts.begin(), counts.end()}, longest)};
   std::array<std::uint32_t, longest_of_all + 2> next{};
   for (const std::uint8_t length : code.lengths)
     if (length > 0) ++next[length + 1U];

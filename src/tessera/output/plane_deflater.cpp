@@ -10,7 +10,7 @@ namespace tessera {
 
 namespace {
 
-constexpr int zlib_level = 1;  // higher ones take several times longer and save little
+constexpr int zlib_level = 1;                  // higher ones take several times longer and save little
 constexpr std::uint64_t zlib_header = 0x0178;  // RFC 1950: window of 32 kB, quickest
 constexpr std::size_t ends_of_stream = 32;     // header, last block, checksum and what BitWriter touches
 

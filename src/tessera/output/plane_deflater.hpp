@@ -29,7 +29,7 @@ class PlaneDeflater {
  private:
   void shuffle(std::span<const std::byte> values, std::size_t width);
 
-  z_stream stream_{};                   // for integers
+  z_stream stream_{};  // for integers
   std::vector<unsigned char> planes_, out_;
 };
 

@@ -51,11 +51,13 @@ const std::array<Quantity, 20> table = {{
     {"J", "-", "Ratio of current to reference volume, det F.", Quantity::Scalar(volume_ratio), full},
     {"mass", "kg", "Mass of the particle.", Quantity::Scalar(stored<&S::mass>), full, constant},
     {"energy_density", "J/m3", "Strain energy per reference volume.", Quantity::Scalar(stored<&S::energy_density>)},
-    {"body", "-", "Number of the body, in the order of the case file.", Quantity::Integer(stored<&S::body>), full, constant},
-    {"material", "-", "Number of the material, in the order of the case file.",
-     Quantity::Integer(stored<&S::material>), full, constant},
+    {"body", "-", "Number of the body, in the order of the case file.", Quantity::Integer(stored<&S::body>), full,
+     constant},
+    {"material", "-", "Number of the material, in the order of the case file.", Quantity::Integer(stored<&S::material>),
+     full, constant},
     {"particle_id", "-", "Number of the particle, in the order in which it was given or generated.",
-     Quantity::Integer([](const Snapshot& s, std::size_t a) { return s.first + static_cast<Index>(a); }), full, constant},
+     Quantity::Integer([](const Snapshot& s, std::size_t a) { return s.first + static_cast<Index>(a); }), full,
+     constant},
 }};
 
 const std::array<std::string, 10> default_names = {"displacement",  "velocity",  "force",    "deformation_gradient",

@@ -50,8 +50,8 @@ class Recorder {
   void write_if_due(const Engine& engine);
   /// Writes a frame and a row whether due or not (equal times are written once).
   void write(const Engine& engine);
-  /// Returns when every frame taken so far is on the disk and in the index; throws RunError when one is not. To be called
-  /// before a checkpoint: a resumed run does not write what came before it.
+  /// Returns when every frame taken so far is on the disk and in the index; throws RunError when one is not. To be
+  /// called before a checkpoint: a resumed run does not write what came before it.
   void complete();
   /// As complete(), for a run that has failed already: a frame that cannot be written is left out.
   void settle() noexcept { background_.settle(); }
@@ -66,7 +66,7 @@ class Recorder {
   std::optional<double> fields_every_;
   double history_every_;
   std::int64_t next_frame_ = 0, next_row_ = 0;  // number of the next multiple of `every`
-  parallel::Background background_;           // last: what it does uses the members above
+  parallel::Background background_;             // last: what it does uses the members above
 };
 
 }  // namespace tessera

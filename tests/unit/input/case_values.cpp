@@ -119,6 +119,7 @@ TEST(Case, FillsInDefaults) {
   EXPECT_TRUE(std::holds_alternative<AutoStep>(c.time.step));
   EXPECT_EQ(c.time.safety, 0.3);
   EXPECT_EQ(c.output.fields.format, FieldFormat::vtkhdf);
+  EXPECT_EQ(c.output.fields.precision, FieldPrecision::mixed);
   EXPECT_FALSE(c.output.fields.every);
   EXPECT_FALSE(c.output.history.every);
   EXPECT_FALSE(c.output.checkpoint.every_wall);

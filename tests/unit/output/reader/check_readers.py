@@ -14,7 +14,7 @@ try:
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
     import numpy as np
 except ImportError as error:
-    print(f"skipped: {error} (Debian: python3-vtk9)")
+    print(f"skipped: {error} (Debian: python3-vtk9 and python3-numpy)")
     sys.exit(SKIPPED)
 
 F = np.array([[1.3, 0.2, 0.0], [0.1, 1.1, 0.0], [0.0, 0.0, 0.9]])
@@ -61,6 +61,18 @@ def check_particles(grid, time):
     assert all(grid.GetCellType(i) == 1 and grid.GetCell(i).GetPointId(0) == i for i in range(8))
     assert np.abs(vtk_to_numpy(grid.GetPoints().GetData()) - (X @ F.T + SHIFT)).max() < 1e-15
     check_quantities(grid.GetPointData(), 8)
+    check_time(grid, time)
+
+
+def check_mixed(grid, time):
+    """Positions and deformation gradients in double, stresses in single precision."""
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    assert np.abs(points - (X @ F.T + SHIFT)).max() < 1e-15
+    data = grid.GetPointData()
+    assert {data.GetArrayName(i) for i in range(data.GetNumberOfArrays())} == set(COMPONENTS)
+    stress, gradient = vtk_to_numpy(data.GetArray("cauchy_stress")), vtk_to_numpy(data.GetArray("deformation_gradient"))
+    assert stress.dtype == np.float32 and np.abs(stress - STRESS).max() < 1e-7 * np.abs(STRESS).max()
+    assert gradient.dtype == np.float64 and np.array_equal(gradient, np.tile(F.ravel(), (8, 1)))
     check_time(grid, time)
 
 
@@ -115,6 +127,8 @@ def main(program):
         check_series(folder, series_frames(folder, "fields.hdf.series"), vtkHDFReader, check_particles)
         check_series(folder, pvd_frames(folder, "fields.pvd"), vtkXMLUnstructuredGridReader, check_particles)
         check_series(folder, pvd_frames(folder, "cells.pvd"), vtkXMLUnstructuredGridReader, check_polyhedra)
+        mixed = os.path.join(folder, "mixed")
+        check_series(mixed, series_frames(mixed, "fields.hdf.series"), vtkHDFReader, check_mixed)
         tetrahedra = os.path.join(folder, "tetrahedra")
         check_series(tetrahedra, pvd_frames(tetrahedra, "cells.pvd"), vtkXMLUnstructuredGridReader, check_tetrahedra)
         for name, _ in series_frames(folder, "fields.csv.series"):

@@ -17,9 +17,10 @@ Polyhedron octant(const Snapshot& s, std::size_t a) {
   return cell;
 }
 
-FieldsSpec spec(FieldFormat format) {
+FieldsSpec spec(FieldFormat format, FieldPrecision precision = FieldPrecision::full) {
   FieldsSpec s;
   s.format = format;
+  s.precision = precision;
   for (const Quantity& quantity : quantity_table()) s.quantities.emplace_back(quantity.name);
   return s;
 }
@@ -29,14 +30,14 @@ void write_samples(const std::string& folder) {
   std::vector<Polyhedron> cells;
   for (std::size_t a = 0; a < 8; ++a) cells.push_back(octant(first, a));
   const std::vector<std::array<Index, 4>> tetrahedra = {{0, 1, 2, 4}, {3, 2, 1, 7}};
-  std::filesystem::create_directories(folder + "/tetrahedra");
+  for (const char* name : {"/tetrahedra", "/mixed"}) std::filesystem::create_directories(folder + name);
   FieldSeries hdf(folder, spec(FieldFormat::vtkhdf)), vtu(folder, spec(FieldFormat::vtu)),
-      csv(folder, spec(FieldFormat::csv));
+      csv(folder, spec(FieldFormat::csv)), mixed(folder + "/mixed", spec(FieldFormat::vtkhdf, FieldPrecision::mixed));
   CellSeries voronoi(folder, spec(FieldFormat::vtkhdf), cells);
   CellSeries delaunay(folder + "/tetrahedra", spec(FieldFormat::vtkhdf), tetrahedra);
   for (const double time : {0.0, 0.25, 0.5}) {
     const Snapshot s = sample::snapshot(time);
-    for (FieldSeries* series : {&hdf, &vtu, &csv}) series->write(s);
+    for (FieldSeries* series : {&hdf, &vtu, &csv, &mixed}) series->write(s);
     for (CellSeries* series : {&voronoi, &delaunay}) series->write(s);
   }
 }

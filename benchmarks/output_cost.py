@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""What writing all fields every hundred steps costs, as a share of the run without it.
+
+Usage: output_cost.py TESSERA [--side N] [--threads T] [--steps S] [--repeats R]
+
+Runs a jittered block of N^3 particles in turn with and without frames of all quantities and compares the best of R
+repeats: the wall-clock time of steps and output, and the processor time of the whole process, which other work on the
+machine disturbs less. Both runs set up the same, and both write a first and a last frame (of one quantity without).
+"""
+import argparse
+import json
+import pathlib
+import resource
+import subprocess
+import tempfile
+
+CASE = """
+[[body]]
+shape = {{ box = {{ min = [0, 0, 0], max = [1, 1, 1] }} }}
+particles = {{ lattice = "cubic", counts = [{side}, {side}, {side}], jitter = 0.25, seed = 3 }}
+material = "rubber"
+[[material]]
+name = "rubber"
+young = "1 MPa"
+poisson = 0.4
+density = 1000
+[[boundary]]
+where = "-z"
+condition = "fixed"
+[[boundary]]
+where = "+z"
+velocity = ["0.5*sin(20*t)", 0, "free"]
+[gravity]
+acceleration = [0, 0, -9.81]
+[time]
+end = {end}
+step = {dt}
+[output]
+fields = {{ every = {every}, quantities = {quantities} }}
+history = {{ every = {end} }}
+"""
+ALL = ["position", "displacement", "velocity", "force", "internal_force", "contact_force", "external_force",
+       "deformation_gradient", "first_piola_kirchhoff", "cauchy_stress", "von_mises", "pressure", "volume", "J", "mass",
+       "energy_density", "body", "material", "particle_id"]
+
+
+def run(tessera, folder, arguments, frames):
+    dt = 4.6e-3 / arguments.side  # about half the stable step
+    end = dt * arguments.steps
+    case = pathlib.Path(folder) / "case.toml"
+    case.write_text(CASE.format(side=arguments.side, dt=dt, end=end, every=100 * dt if frames else 2 * end,
+                                quantities=json.dumps(ALL if frames else ["mass"])))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([tessera, "run", case, "-o", f"{folder}/out", "--force", "--quiet", "-j", str(arguments.threads)],
+                   check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    summary = json.loads(pathlib.Path(f"{folder}/out/summary.json").read_text())
+    wall = summary["wall_seconds"]
+    size = sum(path.stat().st_size for path in pathlib.Path(f"{folder}/out").glob("fields_*.hdf"))
+    return {"wall": wall["steps"] + wall["output"], "steps": wall["steps"], "size": size,
+            "processor": after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
+            "memory": summary["peak_memory_bytes"]}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("tessera")
+    parser.add_argument("--side", type=int, default=46)
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--steps", type=int, default=400)
+    parser.add_argument("--repeats", type=int, default=3)
+    arguments = parser.parse_args()
+    runs = {False: [], True: []}
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(arguments.repeats):
+            for frames in runs:
+                runs[frames].append(run(arguments.tessera, folder, arguments, frames))
+    best = {frames: {key: min(r[key] for r in results) for key in results[0]} for frames, results in runs.items()}
+    without, with_frames = best[False], best[True]
+    particles, count = arguments.side**3, arguments.steps // 100
+    wall = with_frames["wall"] - without["wall"]
+    processor = with_frames["processor"] - without["processor"]
+    print(f"particles {particles}, threads {arguments.threads}, frames {count} more than without")
+    print(f"steps and output: {without['wall']:.3f} s without, {with_frames['wall']:.3f} s with frames: "
+          f"{100 * wall / without['wall']:+.1f} %")
+    print(f"processor time of a frame: {1e6 * processor / count / particles:.2f} us a particle; "
+          f"of 100 steps: {1e8 * arguments.threads * without['steps'] / arguments.steps / particles:.1f} us at most")
+    print(f"file {with_frames['size'] / (count + 1) / particles:.0f} bytes a particle; "
+          f"peak memory {(with_frames['memory'] - without['memory']) / particles:+.0f} bytes a particle")
+
+
+if __name__ == "__main__":
+    main()

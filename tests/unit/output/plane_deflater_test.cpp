@@ -1,0 +1,96 @@
+#include "tessera/output/plane_deflater.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <random>
+
+namespace tessera {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// What zlib and an inverse shuffle make of a stream; empty when zlib refuses it.
+Bytes restored(const std::string& stream, std::size_t size, std::size_t width) {
+  Bytes planes(size + 1), values(size);
+  uLongf length = planes.size();
+  const int status = uncompress(reinterpret_cast<Bytef*>(planes.data()), &length,
+                                reinterpret_cast<const Bytef*>(stream.data()), stream.size());
+  if (status != Z_OK || length != size) return {};
+  const std::size_t count = size / width;
+  for (std::size_t k = 0; k < width; ++k)
+    for (std::size_t i = 0; i < count; ++i) values[i * width + k] = planes[k * count + i];
+  return values;
+}
+
+/// Bytes from near certainty to noise, among them the Fibonacci-like counts that make the longest codes.
+Bytes sample(std::mt19937_64& random, std::size_t size) {
+  const double skewness = std::pow(2.0, -static_cast<double>(random() % 12));
+  const auto choice = random() % 5;
+  std::uniform_real_distribution<> uniform;
+  Bytes bytes(size);
+  for (std::byte& b : bytes) {
+    unsigned k = 0;
+    switch (choice) {
+      case 0:
+        k = static_cast<unsigned>(random());
+        break;
+      case 1:
+        k = uniform(random) < skewness ? static_cast<unsigned>(random()) : 7U;
+        break;
+      case 2:
+        while (k < 24 && uniform(random) < 0.5) ++k;
+        break;
+      case 3:
+        k = static_cast<unsigned>(uniform(random) / (skewness + 1e-3));
+        break;
+      default:
+        k = 63;
+    }
+    b = static_cast<std::byte>(k);
+  }
+  return bytes;
+}
+
+TEST(PlaneDeflater, ZlibReadsWhatItWrites) {
+  PlaneDeflater deflater;
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 600; ++i) {
+    const std::size_t width = std::size_t{1} << (i % 3 == 0 ? 0 : i % 3 + 1);
+    const std::size_t count = 1 + random() % (i % 20 == 0 ? 70000 : 3000);
+    const Bytes bytes = sample(random, count * width);
+    ASSERT_EQ(restored(deflater.numbers(bytes, width), bytes.size(), width), bytes) << "sample " << i;
+    ASSERT_EQ(restored(deflater.integers(bytes, width), bytes.size(), width), bytes) << "sample " << i;
+  }
+}
+
+std::size_t size_of(const std::function<double(std::size_t)>& value) {
+  PlaneDeflater deflater;
+  Bytes bytes(8192 * sizeof(double));
+  for (std::size_t i = 0; i < 8192; ++i) {
+    const double v = value(i);
+    std::memcpy(bytes.data() + i * sizeof v, &v, sizeof v);
+  }
+  return deflater.numbers(bytes, sizeof(double)).size();
+}
+
+TEST(PlaneDeflater, TakesNoMoreThanTheContentNeeds) {
+  constexpr std::size_t whole = 8192 * sizeof(double);
+  std::mt19937_64 random(7);
+  EXPECT_LT(size_of([](std::size_t) { return 1.25; }), whole / 80);
+  EXPECT_LT(size_of([](std::size_t i) { return i == 100 ? 0.3 : 0.0; }), whole / 80);
+  // 52 random bits; one exponent out of few.
+  EXPECT_LT(size_of([&](std::size_t) { return std::uniform_real_distribution<>(1.0, 2.0)(random); }), whole * 54 / 64);
+  const auto noise = [&](std::size_t) {
+    const std::uint64_t bits = random() & 0xbfffffffffffffffU;  // any finite number
+    double value = 0.0;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+  };
+  EXPECT_LT(size_of(noise), whole + 100);
+}
+
+}  // namespace
+}  // namespace tessera
