@@ -88,7 +88,7 @@ TEST(Tasks, AreAllDoneOnce) {
     set_threads(n);
     for (std::int64_t size : {0, 1, 7, 8, 100}) {
       std::vector<int> done(static_cast<std::size_t>(size), 0);
-      for_each_task(size, [&](std::int64_t i) { ++done[static_cast<std::size_t>(i)]; });
+      for_tasks(size, [&](std::int64_t i) { ++done[static_cast<std::size_t>(i)]; });
       EXPECT_EQ(done, std::vector<int>(static_cast<std::size_t>(size), 1)) << n << " threads";
     }
   }
