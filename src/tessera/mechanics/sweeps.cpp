@@ -45,17 +45,19 @@ StressSums& StressSums::operator+=(const StressSums& o) {
 }
 
 TileScratch::TileScratch(const System& s)
-    : nodes(static_cast<std::size_t>(s.tiles.most_nodes)), T(static_cast<std::size_t>(s.tiles.most_particles)) {}
+    : x(static_cast<std::size_t>(s.tiles.most_nodes)),
+      nodes(static_cast<std::size_t>(s.tiles.most_nodes)),
+      T(static_cast<std::size_t>(s.tiles.most_particles)) {}
 
 TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Columns* F, TileScratch& scratch) {
   const Tile& tile = tile_of(s, k);
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const Index* rim = s.tiles.rim.data() + tile.rim;
-  TileNode* __restrict nodes = scratch.nodes.data();
-  for (Index a = 0; a < own; ++a) nodes[a].x = x[tile.begin + a];
+  Double4* __restrict x_local = scratch.x.data();
+  for (Index a = 0; a < own; ++a) x_local[a] = x[tile.begin + a];
   for (Index i = 0; i < rim_size; ++i) {
     fetch(x + rim[std::min(i + lookahead, rim_size - 1)]);
-    nodes[own + i].x = x[rim[i]];
+    x_local[own + i] = x[rim[i]];
   }
   const std::uint16_t* count = s.tiles.count.data() + tile.begin;
   const std::uint16_t* neighbour = s.tiles.neighbour.data() + tile.lane;
@@ -63,12 +65,12 @@ TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Col
   const double* volume = s.d.volume.data() + tile.begin;
   Columns* __restrict F_own = F + tile.begin;
   for (Index a = 0; a < own; ++a) {
-    const Double4 x_a = nodes[a].x;
+    const Double4 x_a = x_local[a];
     Columns VF{};
     const Index bonds = count[a];
     for (Index i = 0; i < bonds; ++i) {
       __builtin_prefetch(reinterpret_cast<const char*>(B + i) + bytes_ahead);
-      add_outer(VF, nodes[neighbour[i]].x - x_a, B[i]);
+      add_outer(VF, x_local[neighbour[i]] - x_a, B[i]);
     }
     neighbour += (bonds + 3) / 4 * 4;
     B += bonds;

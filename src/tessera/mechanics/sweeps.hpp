@@ -34,6 +34,7 @@ struct TileNode {
 struct TileScratch {
   explicit TileScratch(const System& s);
 
+  Field<Double4> x;  // positions for the strain sweep [m]
   Field<TileNode> nodes;
   Field<Columns> T;  // stress of the tile's own particles that the bonds hand on [Pa]
   Field<Columns> P;  // elastic and viscous part of it where it goes another way, else empty
