@@ -84,6 +84,7 @@ class RowAssembler {
       else if (is_zero(D_[static_cast<std::size_t>(g.face)]))
         for (const FaceTerm& t : positions_.boundary.row(g.face))
           add(a, t.particle, t.weight * cells_.boundary[static_cast<std::size_t>(g.face)].area);
+    join_repeated();
     if (row_.size() > nearest_)
       std::inplace_merge(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(nearest_), row_.end(),
                          [](const BondEntry& l, const BondEntry& r) { return l.b < r.b; });
@@ -101,6 +102,21 @@ class RowAssembler {
       row_.push_back({f.neighbour, norm(cells_.interior[static_cast<std::size_t>(f.face)].area), at(f.neighbour), {}});
     nearest_ = row_.size();
     for (const DistantPair& p : distant_.of(a)) row_.push_back({p.b, 0.0, at(p.b), {}});
+  }
+
+  /// One bond for all faces that two cells have in common.
+  void join_repeated() {
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < nearest_; ++i) {
+      if (row_[i].b == row_[last].b)
+        row_[last].area += row_[i].area, row_[last].B += row_[i].B;
+      else if (++last != i)
+        row_[last] = row_[i];
+    }
+    if (last + 1 >= nearest_) return;
+    row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(last) + 1,
+               row_.begin() + static_cast<std::ptrdiff_t>(nearest_));
+    nearest_ = last + 1;
   }
 
   void add_interior(Index a, const FaceOfCell& g) {
@@ -124,9 +140,11 @@ class RowAssembler {
   /// Over all neighbours of both, each once.
   void add_widened(Index a, std::span<const FaceOfCell> of_b, const Vec3& middle, const StencilFunction& w,
                    const Vec3& A) {
-    for (std::size_t i = 0; i < nearest_; ++i) row_[i].B += w(row_[i].X - middle) * A;
-    for (const FaceOfCell& f : of_b)
-      if (!is_neighbour(of_a_, f.neighbour)) add(a, f.neighbour, w(at(f.neighbour) - middle) * A);
+    for (std::size_t i = 0; i < nearest_; ++i)
+      if (!is_repeated(of_a_, i)) row_[i].B += w(row_[i].X - middle) * A;
+    for (std::size_t i = 0; i < of_b.size(); ++i)
+      if (const Index c = of_b[i].neighbour; !is_repeated(of_b, i) && !is_neighbour(of_a_, c))
+        add(a, c, w(at(c) - middle) * A);
   }
 
   void add(Index a, Index b, const Vec3& B) {
@@ -160,7 +178,7 @@ void build_bonds(Discretization& d, const Cells& cells, const Csr<FaceOfCell>& f
   bonds.offset.reserve(d.X.size() + 1);
   for (Index a = 0; a < d.particles(); ++a)
     bonds.offset.push_back(bonds.offset.back() +
-                           static_cast<Offset>(interior_faces(faces, a).size() + distant.of(a).size()));
+                           static_cast<Offset>(count_neighbours(interior_faces(faces, a)) + distant.of(a).size()));
   const auto n = static_cast<std::size_t>(bonds.offset.back());
   bonds.neighbour.resize(n);
   bonds.B_ab.resize(n);

@@ -117,6 +117,7 @@ Identities identities_of_voronoi(const Discretization& d, const Cells& cells, do
   for (const InteriorFace& f : cells.interior) {
     rows[static_cast<std::size_t>(f.a)].add(f.area);
     rows[static_cast<std::size_t>(f.b)].add(-f.area);
+    if (!f.bisects) continue;
     const Vec3 &X_a = d.X[static_cast<std::size_t>(f.a)], &X_b = d.X[static_cast<std::size_t>(f.b)];
     const double A = norm(f.area), L = norm(X_b - X_a);
     const Vec3 B_ab = (A / L) * (f.centroid - X_a), B_ba = (A / L) * (f.centroid - X_b);

@@ -17,6 +17,7 @@ namespace tessera {
 ///   duality       sum_b X_ab (x) B_ab = V_a I, [D 33], [V 8]
 ///   antisymmetry  B_ab = - B_ba unless both are on the boundary, [D 30]; of the normal parts, [V 11] (voronoi)
 ///   area          A_ab = B_ab - B_ba, [V 11] (voronoi)
+/// The last two are those of faces that bisect the branch between their particles.
 using Identities = std::map<std::string, double>;
 
 /// `solid_volume` is the volume of the solid that the particles fill [m3].

@@ -24,6 +24,19 @@ inline std::span<const FaceOfCell> interior_faces(const Csr<FaceOfCell>& faces, 
   return row;
 }
 
+/// Has the neighbour behind the i-th of a cell's interior faces another face with it before? Only cells that took over
+/// a part of another have several faces, in different planes, with one neighbour.
+inline bool is_repeated(std::span<const FaceOfCell> interior, std::size_t i) {
+  return i > 0 && interior[i].neighbour == interior[i - 1].neighbour;
+}
+
+/// The number of different neighbours.
+inline std::size_t count_neighbours(std::span<const FaceOfCell> interior) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < interior.size(); ++i) n += !is_repeated(interior, i);
+  return n;
+}
+
 /// Fills what all Voronoi formulations share: positions, volumes and one site per boundary face.
 void describe_particles(Discretization& d, std::span<const Vec3> X, const Cells& cells);
 

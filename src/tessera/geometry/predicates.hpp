@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "tessera/base/vec3.hpp"
 
@@ -20,7 +21,7 @@ namespace detail {
 /// arithmetic, Discrete Comput. Geom. 18, 1997); below the smallest magnitude underflow could spoil them.
 inline constexpr double orient3d_bound = 7.78e-16;
 inline constexpr double orient2d_bound = 3.34e-16;
-inline constexpr double sphere_bound = 1.78e-15;
+inline constexpr double sphere_bound = 8.1;  // in units of epsilon, whose half is that round-off
 inline constexpr double least_magnitude = 1e-200;
 }  // namespace detail
 
@@ -67,25 +68,46 @@ inline bool are_collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
   return orient2d(a, b, c, 0) == 0 && orient2d(a, b, c, 1) == 0 && orient2d(a, b, c, 2) == 0;
 }
 
+namespace detail {
+
+/// The answer of side_of_sphere if arithmetic with `Real` numbers can tell, else 0.
+template <class Real>
+int filtered_side_of_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
+  struct Vector {
+    Real x, y, z;
+  };
+  const auto from_e = [&](const Vec3& p) {
+    return Vector{static_cast<Real>(p.x) - static_cast<Real>(e.x), static_cast<Real>(p.y) - static_cast<Real>(e.y),
+                  static_cast<Real>(p.z) - static_cast<Real>(e.z)};
+  };
+  const auto square = [](const Vector& u) { return u.x * u.x + u.y * u.y + u.z * u.z; };
+  const auto minor = [](const Vector& u, const Vector& v) { return u.x * v.y - v.x * u.y; };
+  const auto size = [](const Vector& u, const Vector& v) { return std::abs(u.x * v.y) + std::abs(v.x * u.y); };
+  const Vector p = from_e(a), q = from_e(b), r = from_e(c), s = from_e(d);
+  const Real P = square(p), Q = square(q), R = square(r), S = square(s);
+  const Real pq = minor(p, q), qr = minor(q, r), rs = minor(r, s), sp = minor(s, p), pr = minor(p, r), qs = minor(q, s);
+  const Real det = (S * (p.z * qr - q.z * pr + r.z * pq) - R * (s.z * pq + p.z * qs + q.z * sp)) +
+                   (Q * (r.z * sp + s.z * pr + p.z * rs) - P * (q.z * rs - r.z * qs + s.z * qr));
+  const Real PQ = size(p, q), QR = size(q, r), RS = size(r, s), SP = size(s, p), PR = size(p, r), QS = size(q, s);
+  const Real pz = std::abs(p.z), qz = std::abs(q.z), rz = std::abs(r.z), sz = std::abs(s.z);
+  const Real magnitude = S * (pz * QR + qz * PR + rz * PQ) + R * (sz * PQ + pz * QS + qz * SP) +
+                         Q * (rz * SP + sz * PR + pz * RS) + P * (qz * RS + rz * QS + sz * QR);
+  const Real bound = static_cast<Real>(sphere_bound) * std::numeric_limits<Real>::epsilon() * magnitude;
+  if (magnitude > static_cast<Real>(least_magnitude)) {
+    if (det > bound) return -1;
+    if (-det > bound) return 1;
+  }
+  return 0;
+}
+
+}  // namespace detail
+
 /// Where e is with respect to the sphere through a, b, c, d: +1 inside, -1 outside, 0 on it, provided that
 /// orient3d(a, b, c, d) is +1; the other way round when it is -1.
 inline int side_of_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
-  const Vec3 p = a - e, q = b - e, r = c - e, s = d - e;
-  const double P = norm2(p), Q = norm2(q), R = norm2(r), S = norm2(s);
-  const auto minor = [](const Vec3& u, const Vec3& v) { return u.x * v.y - v.x * u.y; };
-  const auto size = [](const Vec3& u, const Vec3& v) { return std::abs(u.x * v.y) + std::abs(v.x * u.y); };
-  const double pq = minor(p, q), qr = minor(q, r), rs = minor(r, s), sp = minor(s, p), pr = minor(p, r),
-               qs = minor(q, s);
-  const double det = (S * (p.z * qr - q.z * pr + r.z * pq) - R * (s.z * pq + p.z * qs + q.z * sp)) +
-                     (Q * (r.z * sp + s.z * pr + p.z * rs) - P * (q.z * rs - r.z * qs + s.z * qr));
-  const double PQ = size(p, q), QR = size(q, r), RS = size(r, s), SP = size(s, p), PR = size(p, r), QS = size(q, s);
-  const double px = std::abs(p.z), qx = std::abs(q.z), rx = std::abs(r.z), sx = std::abs(s.z);
-  const double magnitude = S * (px * QR + qx * PR + rx * PQ) + R * (sx * PQ + px * QS + qx * SP) +
-                           Q * (rx * SP + sx * PR + px * RS) + P * (qx * RS + rx * QS + sx * QR);
-  if (magnitude > detail::least_magnitude) {
-    if (det > detail::sphere_bound * magnitude) return -1;
-    if (-det > detail::sphere_bound * magnitude) return 1;
-  }
+  if (const int side = detail::filtered_side_of_sphere<double>(a, b, c, d, e); side != 0) return side;
+  // Lattices whose spacing is not a binary fraction miss their spheres by a few units in the last place.
+  if (const int side = detail::filtered_side_of_sphere<long double>(a, b, c, d, e); side != 0) return side;
   return exact::side_of_sphere(a, b, c, d, e);
 }
 

@@ -15,22 +15,24 @@ struct InteriorFace {
   Index b = 0;
   Vec3 area;
   Vec3 centroid;
+  bool bisects = true;  // false: of a part that one of the cells took over from another, so in another plane
 };
 
 /// The part of a cell's surface that lies on one side of the solid. `area` points out of the solid [m2].
 struct BoundaryFace {
   Index owner = 0;
-  Index side = 0;  // index into Solid::sides
+  Index side = 0;  // index into Solid::sides or TriangleSurface::side_names
   Vec3 area;
   Vec3 centroid;
 };
 
-/// Voronoi cells cut by a solid. Each face is computed once, so both cells see the same numbers.
+/// Voronoi cells cut by a solid. Each face is computed once, so both cells see the same numbers. Faces between one pair
+/// or of one owner and side are merged where they are in one plane.
 struct Cells {
   std::vector<double> volume;          // [m3]
   std::vector<Vec3> centroid;          // [m]
-  std::vector<InteriorFace> interior;  // sorted by (a, b); pieces between one pair are merged
-  std::vector<BoundaryFace> boundary;  // sorted by (owner, side); pieces on one side are merged
+  std::vector<InteriorFace> interior;  // sorted by (a, b)
+  std::vector<BoundaryFace> boundary;  // sorted by (owner, side)
 };
 
 /// The Voronoi cells of `points` in `solid`; a cell has the index of its point. Throws GeometryError that names the
