@@ -35,7 +35,8 @@ TEST(DualCells, AgreeOnTheirCorners) {
     for (const double jitter : {0.0, 1e-15, 0.3}) {
       const std::vector<Vec3> points = cube_lattice(5, spacing, jitter);
       const std::vector<Vec3> generators = surrounded(points);
-      DualCellCutter cutter(generators, spacing);
+      const PointGrid grid = grid_of(generators, spacing);
+      DualCellCutter cutter(generators, grid);
       std::map<DualCell::Name, std::pair<Vec3, int>> corners;
       const auto n = static_cast<Index>(points.size());
       for (Index a = 0; a < n; ++a) {
