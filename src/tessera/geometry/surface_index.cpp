@@ -86,15 +86,23 @@ Location SurfaceIndex::location(const Vec3& X) const {
 }
 
 NearestPoint SurfaceIndex::nearest(const Vec3& X) const {
-  const auto point_on = [&](Index t) {
-    const auto [a, b, c] = surface_.corners(t);
-    return nearest_on_triangle(X, a, b, c);
-  };
-  const auto [t, distance2] =
-      tree_.minimum([&](const Bounds& box) { return box.distance2(X); },
-                    [&](Index i) { return norm2(X - point_on(i)); }, std::numeric_limits<double>::infinity());
+  const auto [t, distance2] = nearest_below(std::numeric_limits<double>::infinity(), X);
   if (t < 0) return {-1, X, std::numeric_limits<double>::infinity()};
-  return {t, point_on(t), std::sqrt(distance2)};
+  const auto [a, b, c] = surface_.corners(t);
+  return {t, nearest_on_triangle(X, a, b, c), std::sqrt(distance2)};
+}
+
+bool SurfaceIndex::is_nearer_than(double distance, const Vec3& X) const {
+  return nearest_below(distance * distance, X).first >= 0;
+}
+
+std::pair<Index, double> SurfaceIndex::nearest_below(double distance2, const Vec3& X) const {
+  return tree_.minimum([&](const Bounds& box) { return box.distance2(X); },
+                       [&](Index t) {
+                         const auto [a, b, c] = surface_.corners(t);
+                         return norm2(X - nearest_on_triangle(X, a, b, c));
+                       },
+                       distance2);
 }
 
 }  // namespace tessera

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "tessera/geometry/bounding_tree.hpp"
@@ -58,6 +59,8 @@ class SurfaceIndex {
 
   /// The nearest point of the surface; its triangle is one of those that are nearest.
   NearestPoint nearest(const Vec3& X) const;
+  /// Is X nearer to the surface than `distance` [m]? Much faster than nearest() where it is not.
+  bool is_nearer_than(double distance, const Vec3& X) const;
 
  private:
   /// Can a ray upwards from X meet the box?
@@ -66,6 +69,9 @@ class SurfaceIndex {
   }
   /// +1 (-1) when the ray upwards from X leaves (enters) the solid through a triangle, 0 when it misses it.
   static int crossing(const std::array<Vec3, 3>& corners, const Vec3& X);
+
+  /// The nearest triangle whose squared distance from X is below `distance2`, and that; -1 when there is none.
+  std::pair<Index, double> nearest_below(double distance2, const Vec3& X) const;
 
   const TriangleSurface& surface_;
   BoundingTree tree_;

@@ -99,6 +99,8 @@ TEST(SurfaceIndex, NearestPointIsThatOfAllTriangles) {
       const NearestPoint nearest = index.nearest(X);
       EXPECT_EQ(nearest.distance, least);
       EXPECT_EQ(norm(X - nearest.X), least);
+      EXPECT_TRUE(index.is_nearer_than(least * (1 + 1e-12), X));
+      EXPECT_FALSE(index.is_nearer_than(least * (1 - 1e-12), X));
     }
   }
 }
