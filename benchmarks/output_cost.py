@@ -5,10 +5,14 @@ Usage: output_cost.py TESSERA [--side N] [--threads T] [--steps S] [--repeats R]
 
 Runs a jittered block of N^3 particles in turn with and without frames of all quantities and compares the best of R
 repeats: the wall-clock time of steps and output, and the processor time of the whole process, which other work on the
-machine disturbs less. Both runs set up the same, and both write a first and a last frame (of one quantity without).
+machine disturbs less. What steps take of the latter is the difference to a run of a single step. All runs set up the
+same and write a first and a last frame; those of the runs without hold little more than positions. So the cost of a
+frame includes a share of the first one, which compresses the constants. On a busy machine wall-clock times say little:
+the load is printed beside them.
 """
 import argparse
 import json
+import os
 import pathlib
 import resource
 import subprocess
@@ -44,9 +48,9 @@ ALL = ["position", "displacement", "velocity", "force", "internal_force", "conta
        "energy_density", "body", "material", "particle_id"]
 
 
-def run(tessera, folder, arguments, frames):
-    dt = 4.6e-3 / arguments.side  # about half the stable step
-    end = dt * arguments.steps
+def run(tessera, folder, arguments, frames, steps):
+    dt = 4.6e-3 / arguments.side
+    end = dt * steps
     case = pathlib.Path(folder) / "case.toml"
     case.write_text(CASE.format(side=arguments.side, dt=dt, end=end, every=100 * dt if frames else 2 * end,
                                 quantities=json.dumps(ALL if frames else ["mass"])))
@@ -70,23 +74,24 @@ def main():
     parser.add_argument("--steps", type=int, default=400)
     parser.add_argument("--repeats", type=int, default=3)
     arguments = parser.parse_args()
-    runs = {False: [], True: []}
+    kinds = {"setup": (False, 1), "without": (False, arguments.steps), "frames": (True, arguments.steps)}
+    runs = {kind: [] for kind in kinds}
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(arguments.repeats):
-            for frames in runs:
-                runs[frames].append(run(arguments.tessera, folder, arguments, frames))
-    best = {frames: {key: min(r[key] for r in results) for key in results[0]} for frames, results in runs.items()}
-    without, with_frames = best[False], best[True]
-    particles, count = arguments.side**3, arguments.steps // 100
-    wall = with_frames["wall"] - without["wall"]
-    processor = with_frames["processor"] - without["processor"]
-    print(f"particles {particles}, threads {arguments.threads}, frames {count} more than without")
-    print(f"steps and output: {without['wall']:.3f} s without, {with_frames['wall']:.3f} s with frames: "
-          f"{100 * wall / without['wall']:+.1f} %")
-    print(f"processor time of a frame: {1e6 * processor / count / particles:.2f} us a particle; "
-          f"of 100 steps: {1e8 * arguments.threads * without['steps'] / arguments.steps / particles:.1f} us at most")
-    print(f"file {with_frames['size'] / (count + 1) / particles:.0f} bytes a particle; "
-          f"peak memory {(with_frames['memory'] - without['memory']) / particles:+.0f} bytes a particle")
+            for kind, (frames, steps) in kinds.items():
+                runs[kind].append(run(arguments.tessera, folder, arguments, frames, steps))
+    best = {kind: {key: min(r[key] for r in results) for key in results[0]} for kind, results in runs.items()}
+    particles, count = arguments.side**3, arguments.steps / 100
+    wall = [f"{r['wall']:.2f}" for kind in ("without", "frames") for r in runs[kind]]
+    frame = (best["frames"]["processor"] - best["without"]["processor"]) / count
+    steps = (best["without"]["processor"] - best["setup"]["processor"]) / count
+    print(f"particles {particles}, threads {arguments.threads}, load {os.getloadavg()[0]:.1f}")
+    print(f"wall-clock of steps and output [s]: without {wall[:arguments.repeats]}, with {wall[arguments.repeats:]}, "
+          f"best {100 * (best['frames']['wall'] / best['without']['wall'] - 1):+.1f} %")
+    print(f"processor time: frame {1e6 * frame / particles:.2f} us a particle, 100 steps "
+          f"{1e6 * steps / particles:.2f} us a particle: {100 * frame / steps:.1f} %")
+    print(f"file {best['frames']['size'] / (int(count) + 1) / particles:.0f} bytes a particle; peak memory "
+          f"{(best['frames']['memory'] - best['without']['memory']) / particles:+.0f} bytes a particle")
 
 
 if __name__ == "__main__":

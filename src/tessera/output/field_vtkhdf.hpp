@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-/// One frame of particles, compressed and ready to be written: what a run keeps of it while it goes on. About 150 bytes
+/// One frame of particles, compressed and ready to be written: what a run keeps of it while it goes on. About 240 bytes
 /// a particle with all quantities.
 struct VtkhdfFrame {
   struct Array {

@@ -10,7 +10,7 @@
 namespace tessera {
 
 /// Compresses arrays of numbers as HDF5's filters shuffle and deflate do, into streams that every reader of these
-/// filters understands, but about five times faster than zlib's quickest level. Shuffled, the bytes of a number lie in
+/// filters understands, but several times faster than zlib's quickest level. Shuffled, the bytes of a number lie in
 /// planes: the last ones of a mantissa are noise, which is stored as it is; signs, exponents and leading digits have a
 /// skew distribution without longer patterns, for which run lengths and Huffman codes get nearly all there is.
 class PlaneDeflater {
