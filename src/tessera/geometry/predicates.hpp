@@ -7,9 +7,15 @@
 
 namespace tessera {
 
+/// Coordinates must be smaller than this in size, and so finite, for all that follows.
+inline constexpr double kLargestCoordinate = 1e50;
+
+inline bool is_usable(const Vec3& X) {
+  return std::abs(X.x) < kLargestCoordinate && std::abs(X.y) < kLargestCoordinate && std::abs(X.z) < kLargestCoordinate;
+}
+
 /// Signs of determinants of the given floating-point numbers, never wrong, whatever round-off does: a filter decides
-/// the plain cases, CGAL's exact kernel the others. All may be called by many threads at once. Coordinates must be
-/// finite and below 1e50 in size.
+/// the plain cases, CGAL's exact kernel the others. All may be called by many threads at once.
 namespace exact {
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis);

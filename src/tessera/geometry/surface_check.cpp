@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "tessera/base/error.hpp"
+#include "tessera/geometry/predicates.hpp"
 #include "tessera/geometry/surface_sides.hpp"
 
 namespace tessera {
 namespace {
-
-constexpr double kLargestCoordinate = 1e50;  // the exact predicates hold below
 
 void refuse_empty(const FileSurface& file) {
   if (file.surface.triangles.empty())

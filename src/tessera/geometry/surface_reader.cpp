@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <limits>
 
 #include "tessera/base/error.hpp"
+#include "tessera/geometry/predicates.hpp"
 #include "tessera/geometry/text_cursor.hpp"
 
 namespace tessera {
@@ -33,6 +35,9 @@ void FileSurfaceBuilder::add_polygon(std::span<const Index> corners, Index side,
   if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]}, side, place);
   std::vector<Vec3> X;
   for (const Index v : corners) X.push_back(file_.surface.vertex(v));
+  if (!std::all_of(X.begin(), X.end(), is_usable))
+    throw GeometryError(
+        fmt::format("{}a face has a corner whose coordinates are no numbers below {:g}", where, kLargestCoordinate));
   const auto triangles = cut_ears(X);
   if (triangles.empty())
     throw GeometryError(

@@ -224,6 +224,9 @@ TEST(SurfaceReader, FaultsNameLineAndWhatIsAllowed) {
                   "f:6: the outline of a face");
   expect_contains(fault_of(read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
                   "f:6: there is no vertex 3: numbers from 0 to 2");
+  expect_contains(fault_of(read_obj, "v 0 0 0\nv 1 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3 4\n"), "f:5: a face has a corner");
+  expect_contains(fault_of(read_obj, "v 0 0 0\nv 1 0 0\nv 1e999 1 0\nv 0 1 0\nf 1 2 3 4\n"),
+                  "f:5: a face has a corner");
   expect_contains(fault_of(read_off, "4OFF\n3 1 0\n"), "\"4OFF\"");
   expect_contains(fault_of(read_off, "OFF\n2000000000 1 0\n0 0 0\n"), "2000000000 vertices are announced");
   expect_contains(fault_of(read_ply, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"),
