@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #if defined(__linux__)
@@ -35,6 +37,31 @@ struct CacheLineAllocator {
   void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
+
+/// The same for arrays that are written before they are read: leaves new elements as they are, so that the threads that
+/// fill an array are the first to touch its pages.
+template <class T>
+struct RawAllocator : CacheLineAllocator<T> {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+  template <class U>
+  struct rebind {
+    using other = RawAllocator<U>;
+  };
+  RawAllocator() = default;
+  template <class U>
+  explicit RawAllocator(const RawAllocator<U>&) {}
+
+  template <class U>
+  void construct(U*) {}
+  template <class U, class First, class... Rest>
+  void construct(U* p, First&& first, Rest&&... rest) {
+    ::new (static_cast<void*>(p)) U(std::forward<First>(first), std::forward<Rest>(rest)...);
+  }
+};
+
+/// One value per bond or the like; resize() leaves the new ones undefined.
+template <class T>
+using RawField = std::vector<T, RawAllocator<T>>;
 
 /// One value per particle, node or bond.
 template <class T>

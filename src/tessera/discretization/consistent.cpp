@@ -237,7 +237,6 @@ Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells
     build_bonds(d, cells, faces, positions, D);
     build_boundary(d, positions, cells, D);
   }
-  complete_bonds(d.bonds);
   d.B_aa = diagonal_vectors(d);
   return d;
 }

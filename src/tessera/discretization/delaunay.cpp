@@ -80,14 +80,13 @@ void build_bonds(Discretization& d, const TetrahedralMesh& mesh) {
     bonds.B_ab[k] = rows.value[k].B;
   });
   rows = {};
-  complete_bonds(bonds);
   // A_ab = 2 (|B_ab| + |B_ba|), [D 60].
   bonds.area_over_length.resize(bonds.neighbour.size());
   parallel::for_each(d.particles(), [&](std::int64_t row) {
     const auto a = static_cast<Index>(row);
     for (Offset i = bonds.begin(a); i < bonds.end(a); ++i) {
       const auto k = static_cast<std::size_t>(i);
-      bonds.area_over_length[k] = 2.0 * (norm(bonds.B_ab[k]) + norm(bonds.B_ba[k])) / norm(d.branch(a, i));
+      bonds.area_over_length[k] = 2.0 * (norm(bonds.B_ab[k]) + norm(bonds.B_ba(a, i))) / norm(d.branch(a, i));
     }
   });
 }

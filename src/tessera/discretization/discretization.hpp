@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/base/csr.hpp"
+#include "tessera/base/field.hpp"
 #include "tessera/base/index.hpp"
 #include "tessera/base/mat3.hpp"
 
@@ -14,10 +15,9 @@ namespace tessera {
 /// symmetric: a is in row b whenever b is in row a.
 struct Bonds {
   std::vector<Offset> offset{0};
-  std::vector<Index> neighbour;
-  std::vector<Vec3> B_ab;                // gradient vector: dF_a / dx_b = B_ab / V_a [m2]
-  std::vector<Vec3> B_ba;                // the neighbour's gradient vector towards a [m2]
-  std::vector<double> area_over_length;  // A_ab / L_ab of the bond stiffness [D 60], [V 50]; 0: no common face [m]
+  RawField<Index> neighbour;
+  RawField<Vec3> B_ab;                // gradient vector: dF_a / dx_b = B_ab / V_a [m2]
+  RawField<double> area_over_length;  // A_ab / L_ab of the bond stiffness [D 60], [V 50]; 0: no common face [m]
 
   Index rows() const { return static_cast<Index>(offset.size()) - 1; }
   Offset begin(Index a) const { return offset[static_cast<std::size_t>(a)]; }
@@ -25,6 +25,10 @@ struct Bonds {
   Offset size() const { return static_cast<Offset>(neighbour.size()); }
   /// Position of the bond a -> b, or -1.
   Offset find(Index a, Index b) const;
+  /// The neighbour's gradient vector towards a, for the bond at position `bond` in row a [m2].
+  const Vec3& B_ba(Index a, Offset bond) const {
+    return B_ab[static_cast<std::size_t>(find(neighbour[static_cast<std::size_t>(bond)], a))];
+  }
 };
 
 /// A point on the boundary whose motion is prescribed, wholly or in part: the position c_f of a constrained face

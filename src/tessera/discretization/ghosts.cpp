@@ -127,7 +127,6 @@ class GhostDiscretization {
         add_boundary(row, GhostParticle(a, X_, cells_, faces_, D_), a);
       finish_row(row, a);
     }
-    complete_bonds(d_.bonds);
     add_stiffness();
     add_loads();
     d_.B_aa = diagonal_vectors(d_);

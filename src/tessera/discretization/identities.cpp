@@ -60,8 +60,7 @@ double columns(const Discretization& d, const std::vector<char>& checked) {
   for (Index b = 0; b < d.particles(); ++b) {
     const auto k = static_cast<std::size_t>(b);
     columns[k].add(d.B_aa[k]);
-    for (Offset i = d.bonds.begin(b); i < d.bonds.end(b); ++i)
-      columns[k].add(d.bonds.B_ba[static_cast<std::size_t>(i)]);
+    for (Offset i = d.bonds.begin(b); i < d.bonds.end(b); ++i) columns[k].add(d.bonds.B_ba(b, i));
   }
   std::vector<char> held(d.sites.size(), 0);
   for (const BoundaryNode& f : d.nodes) held[static_cast<std::size_t>(f.site)] = 1;
@@ -96,7 +95,7 @@ Identities identities_of_delaunay(const Discretization& d, double solid_volume) 
       const auto ab = static_cast<std::size_t>(i);
       rows[k].add(d.bonds.B_ab[ab]);
       if (on_boundary[k] && on_boundary[static_cast<std::size_t>(d.bonds.neighbour[ab])]) continue;
-      antisymmetry = larger(antisymmetry, norm(d.bonds.B_ab[ab] + d.bonds.B_ba[ab]) / size);
+      antisymmetry = larger(antisymmetry, norm(d.bonds.B_ab[ab] + d.bonds.B_ba(a, i)) / size);
     }
   }
   result["rows"] = worst(rows);

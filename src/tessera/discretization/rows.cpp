@@ -14,19 +14,6 @@ Offset Bonds::find(Index a, Index b) const {
   return it != last && *it == b ? it - neighbour.begin() : -1;
 }
 
-void complete_bonds(Bonds& bonds) {
-  const auto n = static_cast<std::size_t>(bonds.size());
-  bonds.B_ba.resize(n);
-  parallel::for_each(bonds.rows(), [&](std::int64_t row) {
-    const auto a = static_cast<Index>(row);
-    for (Offset i = bonds.begin(a); i < bonds.end(a); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const Index b = bonds.neighbour[k];
-      bonds.B_ba[k] = bonds.B_ab[static_cast<std::size_t>(bonds.find(b, a))];
-    }
-  });
-}
-
 std::vector<Vec3> diagonal_vectors(const Discretization& d) {
   std::vector<Vec3> B_aa(d.X.size());
   parallel::for_each(d.particles(), [&](std::int64_t row) {
@@ -48,8 +35,8 @@ bool is_identity(const Mat3& D) {
 
 namespace {
 
-template <class T>
-void move_to_end(std::vector<T>& all, std::vector<T>& more) {
+template <class Values>
+void move_to_end(Values& all, Values& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
@@ -65,7 +52,6 @@ void append_bonds(Bonds& all, Bonds& more, Index shift) {
   for (std::size_t r = 1; r < more.offset.size(); ++r) all.offset.push_back(base + more.offset[r]);
   for (Index b : more.neighbour) all.neighbour.push_back(b + shift);
   move_to_end(all.B_ab, more.B_ab);
-  move_to_end(all.B_ba, more.B_ba);
   move_to_end(all.area_over_length, more.area_over_length);
 }
 

@@ -36,9 +36,6 @@ class RowBuffer {
   std::vector<Entry> entries_;
 };
 
-/// Fills B_ba of bonds whose pattern and B_ab are known. The pattern must be symmetric.
-void complete_bonds(Bonds& bonds);
-
 /// B_aa = - sum_b B_ab - sum_f B_af, [D 29], [V 9].
 std::vector<Vec3> diagonal_vectors(const Discretization& d);
 

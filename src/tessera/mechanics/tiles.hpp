@@ -31,23 +31,23 @@ struct Tile {
 /// of the tile's values that stays in the cache.
 struct Tiles {
   std::vector<Tile> tiles;  // and an end mark
-  Field<Index> rim;         // particles, ascending within a tile
+  RawField<Index> rim;      // particles, ascending within a tile
 
   // One row a particle, padded to a multiple of four entries (of no stiffness) that one register takes at once.
-  Field<std::uint16_t> count;      // bonds of each particle
-  Field<std::uint16_t> neighbour;  // local number
-  Field<double> area_over_length;  // [m]
+  RawField<std::uint16_t> count;      // bonds of each particle
+  RawField<std::uint16_t> neighbour;  // local number
+  RawField<double> area_over_length;  // [m]
   // One row a particle, not padded.
-  Field<Vec3> B;         // B_ab, [m2]
-  Field<Vec3> direct_B;  // of [V 42]: what P_a does to b by the bond a -> b; empty if that is B_ab
+  RawField<Vec3> B;         // B_ab, [m2]
+  RawField<Vec3> direct_B;  // of [V 42]: what P_a does to b by the bond a -> b; empty if that is B_ab
 
   /// The bonds of a tile that lead to a local particle: one row each.
   struct Incoming {
     std::uint16_t from;  // local number of a
     std::uint16_t bond;  // position of a -> b, counted from the tile's first
   };
-  Field<std::uint16_t> incoming_count;
-  Field<Incoming> incoming;
+  RawField<std::uint16_t> incoming_count;
+  RawField<Incoming> incoming;
 
   // Where a particle is in the rims of other tiles: positions in `rim`, ascending. One row a particle.
   std::vector<Offset> rim_offset{0};

@@ -99,7 +99,7 @@ TEST(Identities, EachFindsItsDamageInDelaunay) {
   const std::vector<Damage> damages{
       {"volume", [](Discretization& d) { d.volume[5] *= 1.001; }},
       {"rows", [](Discretization& d) { d.B_aa[5].x += 1e-3; }},
-      {"columns", [](Discretization& d) { d.bonds.B_ba[7].y += 1e-3; }},
+      {"columns", [](Discretization& d) { d.bonds.B_ab[7].y += 1e-3; }},
       {"columns", [](Discretization& d) { d.load.value[3].area *= 1.1; }},
       {"duality", [](Discretization& d) { d.X[7].z += 1e-3; }},
       {"antisymmetry", [&](Discretization& d) { d.bonds.B_ab[inner_bond(d)].x += 1e-3; }},
@@ -127,7 +127,7 @@ TEST(Identities, EachFindsItsDamageInVoronoi) {
     }
   }
   Discretization d = discretize(Method::consistent, v);
-  d.bonds.B_ba[7].z += 1e-3;
+  d.bonds.B_ab[7].z += 1e-3;
   expect_found({"columns", {}}, identities_of_voronoi(d, v.cells, solid.volume));
 }
 

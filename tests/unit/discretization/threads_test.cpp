@@ -32,7 +32,6 @@ void expect_same(const Discretization& one, const Discretization& two) {
   EXPECT_EQ(one.bonds.offset, two.bonds.offset);
   EXPECT_EQ(one.bonds.neighbour, two.bonds.neighbour);
   EXPECT_EQ(one.bonds.B_ab, two.bonds.B_ab);
-  EXPECT_EQ(one.bonds.B_ba, two.bonds.B_ba);
   EXPECT_EQ(one.bonds.area_over_length, two.bonds.area_over_length);
   EXPECT_EQ(one.B_aa, two.B_aa);
   EXPECT_EQ(one.closure.offset, two.closure.offset);
