@@ -7,6 +7,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/discretization/rows.hpp"
+#include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
 
@@ -39,11 +40,12 @@ double worst(const std::vector<Balance>& balances) {
 
 double duality(const Discretization& d) {
   std::vector<Mat3> sum(d.X.size());
-  for (Index a = 0; a < d.particles(); ++a)
-    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      sum[static_cast<std::size_t>(a)] += outer(d.branch(a, i), d.bonds.B_ab[k]);
-    }
+  parallel::for_each(d.particles(), [&](std::int64_t row) {
+    const auto a = static_cast<Index>(row);
+    Mat3& sum_a = sum[static_cast<std::size_t>(a)];
+    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i)
+      sum_a += outer(d.branch(a, i), d.bonds.B_ab[static_cast<std::size_t>(i)]);
+  });
   for (const BoundaryNode& f : d.nodes) {
     const auto a = static_cast<std::size_t>(f.owner);
     sum[a] += outer(f.X - d.X[a], f.B_af);
@@ -57,11 +59,12 @@ double duality(const Discretization& d) {
 /// with a node balance by themselves: their closure hands - P A_f back with the weights of the traction.
 double columns(const Discretization& d, const std::vector<char>& checked) {
   std::vector<Balance> columns(d.X.size());
-  for (Index b = 0; b < d.particles(); ++b) {
-    const auto k = static_cast<std::size_t>(b);
-    columns[k].add(d.B_aa[k]);
-    for (Offset i = d.bonds.begin(b); i < d.bonds.end(b); ++i) columns[k].add(d.bonds.B_ba(b, i));
-  }
+  parallel::for_each(d.particles(), [&](std::int64_t row) {
+    const auto b = static_cast<Index>(row);
+    Balance& column = columns[static_cast<std::size_t>(b)];
+    column.add(d.B_aa[static_cast<std::size_t>(b)]);
+    for (Offset i = d.bonds.begin(b); i < d.bonds.end(b); ++i) column.add(d.bonds.B_ba(b, i));
+  });
   std::vector<char> held(d.sites.size(), 0);
   for (const BoundaryNode& f : d.nodes) held[static_cast<std::size_t>(f.site)] = 1;
   for (std::size_t s = 0; s < d.sites.size(); ++s)

@@ -58,6 +58,10 @@ void append_bonds(Bonds& all, Bonds& more, Index shift) {
 }  // namespace
 
 void append(Discretization& all, Discretization body) {
+  if (all.X.empty()) {
+    all = std::move(body);
+    return;
+  }
   const Index particles = all.particles(), sites = static_cast<Index>(all.sites.size());
   const Index nodes = static_cast<Index>(all.nodes.size());
   // Boundary nodes are numbered after all particles, so both ranges of a closure row move.
