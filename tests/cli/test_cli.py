@@ -234,6 +234,77 @@ class Geometry(CliTest):
         self.check_geometry(text + '[method]\nformulation = "delaunay"\n', "part.msh")
 
 
+class Surfaces(CliTest):
+    """Bodies from surface files."""
+
+    TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+    SHAPE = 'shape = { box = { min = [0, 0, 0], max = [1, 1, 1] } }'
+
+    def write_case(self, shape, more=""):
+        (self.folder / "part.off").write_text(self.TETRAHEDRON)
+        text = CASE.replace(self.SHAPE, f"shape = {shape}").replace("[3, 3, 3]", "[6, 6, 6]")
+        text = text.replace('"-x"', '"X < 0.1"').replace('"+x"', '"X > 0.5"')
+        (self.folder / "case.toml").write_text(text + more)
+
+    def check(self, *arguments):
+        return subprocess.run([PROGRAM, "check", "case.toml", *arguments], cwd=self.folder, capture_output=True,
+                              text=True)
+
+    def test_sides(self):
+        self.write_case('{ file = "part.off", units = "m" }')
+        found = json.loads(self.check("--json").stdout)
+        self.assertAlmostEqual(found["volume"], 1 / 6, delta=1e-15)
+        self.assertIn("4 triangles, 4 vertices, 1 shell", found["notes"][0])
+        self.assertEqual(len(found["notes"]), 2)
+        self.assertIn('side "surface": area 2.36603 m2', found["notes"][1])
+
+    def test_split_angle(self):
+        self.write_case('{ file = "part.off", units = "m", split_angle = 30 }')
+        notes = json.loads(self.check("--json").stdout)["notes"]
+        self.assertEqual([note.split('"')[1] for note in notes[1:]], ["side1", "side2", "side3", "side4"])
+        self.assertIn("normal (0.577, 0.577, 0.577)", notes[1])
+
+    def test_units(self):
+        self.write_case('{ file = "part.off", units = "cm" }')
+        case = self.folder / "case.toml"
+        case.write_text(case.read_text().replace('"X < 0.1"', '"X < 0.001"').replace('"X > 0.5"', '"X > 0.005"'))
+        self.assertAlmostEqual(json.loads(self.check("--json").stdout)["volume"], 1e-6 / 6, delta=1e-20)
+
+    def refused(self, shape, more, *parts, status=INPUT):
+        self.write_case(shape, more)
+        process = self.check()
+        self.assertEqual(process.returncode, status, process.stderr)
+        for part in parts:
+            self.assertIn(part, process.stderr)
+
+    def test_what_is_refused(self):
+        plain = '{ file = "part.off", units = "m" }'
+        self.refused('{ file = "part.off" }', "", "units", "missing")
+        self.refused('{ file = "part.off", units = "mile" }', "", "mile", "mm")
+        self.refused('{ file = "part.off", units = "m", box = { min = [0, 0, 0], max = [1, 1, 1] } }', "", "exactly one")
+        self.refused(plain, '[method]\nformulation = "delaunay"\n', "case.toml:4", "voronoi")
+        self.refused(plain, '[method]\nboundary = "variational"\n', "case.toml:4", "consistent")
+        self.refused('{ union = [{ file = "part.off", units = "m" }, { box = { min = [0, 0, 0], max = [1, 1, 1] } }] }',
+                     "", "only be made of boxes")
+        self.refused('{ file = "other.off", units = "m" }', "", "other.off", status=GEOMETRY)
+
+    def test_open_surface(self):
+        self.write_case('{ file = "part.off", units = "m" }')
+        (self.folder / "part.off").write_text(self.TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 1 2 3\n", ""))
+        process = self.check()
+        self.assertEqual(process.returncode, GEOMETRY)
+        self.assertIn("part.off", process.stderr)
+
+    def test_points_outside(self):
+        self.write_case('{ file = "part.off", units = "m" }')
+        (self.folder / "points.csv").write_text("x,y,z\n0.1,0.1,0.1\n0.2,0.3,0.2\n0.4,0.4,0.4\n")
+        case = self.folder / "case.toml"
+        case.write_text(case.read_text().replace("counts = [6, 6, 6], jitter = 0.2, seed = 3", 'file = "points.csv"'))
+        process = self.check()
+        self.assertEqual(process.returncode, GEOMETRY)
+        self.assertIn("points.csv:4: particle 2 at (0.4, 0.4, 0.4) m does not lie inside the surface", process.stderr)
+
+
 class Information(CliTest):
     def output_of(self, *arguments):
         result = self.call(*arguments)

@@ -28,8 +28,9 @@ void collect_boxes(const Shape& shape, std::vector<BoxShape>& boxes) {
   const auto* sum = std::get_if<UnionShape>(&shape.kind);
   const auto* difference = std::get_if<DifferenceShape>(&shape.kind);
   if (!sum && !difference)
-    throw InputError(shape.origin,
-                     "a union or difference can only be made of boxes; write other shapes as one polygon");
+    throw InputError(
+        shape.origin,
+        "a union or difference can only be made of boxes; write other shapes as one polygon or one surface file");
   const std::vector<Shape>& parts = sum ? sum->parts : difference->parts;
   if (parts.empty()) throw InputError(shape.origin, "a union or difference needs at least one part");
   for (const Shape& part : parts) collect_boxes(part, boxes);

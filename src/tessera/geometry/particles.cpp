@@ -9,6 +9,7 @@
 #include "tessera/geometry/close_pair.hpp"
 #include "tessera/geometry/lattice.hpp"
 #include "tessera/geometry/point_file.hpp"
+#include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
 namespace {
@@ -17,8 +18,8 @@ constexpr double kClosest = 1e-6;  // of the mean spacing
 
 std::string at(const Vec3& X) { return fmt::format("({:g}, {:g}, {:g}) m", X.x, X.y, X.z); }
 
-void check_distances(const std::vector<Vec3>& points, const Solid& solid, const std::vector<int>& lines) {
-  const double spacing = std::cbrt(solid.volume / static_cast<double>(points.size()));
+void check_distances(const std::vector<Vec3>& points, double solid_volume, const std::vector<int>& lines) {
+  const double spacing = std::cbrt(solid_volume / static_cast<double>(points.size()));
   const auto pair = find_close_pair(points, kClosest * spacing);
   if (!pair) return;
   const auto named = [&](Index particle) {
@@ -47,18 +48,71 @@ void check_inside(const FilePoints& file, const std::string& path, const Solid& 
   }
 }
 
+/// The lattice over the bounding box of a surface, clipped to it.
+PointSet place_lattice_in(const LatticeSpec& spec, const Origin& origin, const SurfaceIndex& index) {
+  const Bounds box = bounds(index.surface());
+  const Solid around = build_solid(Shape{"", origin, BoxShape{box.lower, box.upper}});
+  LatticeSpec still = spec;
+  still.jitter = 0.0;
+  PointSet set = place_lattice(still, origin, around, Placement::cell_centres);
+  const PointSet moved = place_lattice(spec, origin, around, Placement::cell_centres);
+  const Vec3& h = set.lattice->spacing;
+  const double depth = kLeastDepth * std::min({h.x, h.y, h.z});
+  const auto is_fine = [&](const Vec3& X) {
+    return index.location(X) == Location::inside && index.nearest(X).distance >= depth;
+  };
+  std::vector<char> is_taken(set.points.size(), 0);
+  parallel::for_each(static_cast<std::int64_t>(set.points.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (!is_fine(set.points[k])) return;
+    is_taken[k] = 1;
+    const Vec3 move = moved.points[k] - set.points[k];
+    for (double part = 1.0; part > 0.1; part *= 0.5)  // in a corner a particle may have no room to move at all
+      if (is_fine(set.points[k] + part * move)) {
+        set.points[k] += part * move;
+        break;
+      }
+  });
+  PointSet inside;
+  for (std::size_t k = 0; k < is_taken.size(); ++k)
+    if (is_taken[k]) inside.points.push_back(set.points[k]);
+  if (inside.points.empty())
+    throw InputError(origin, fmt::format("no cell centre of the lattice, with spacings ({:g}, {:g}, {:g}) m, lies in "
+                                         "the solid and {:g} spacings away from its surface; choose a finer one",
+                                         h.x, h.y, h.z, kLeastDepth));
+  return inside;
+}
+
 }  // namespace
+
+PointSet place_particles(const ParticleSpec& spec, const SurfaceIndex& index) {
+  if (const auto* lattice = std::get_if<LatticeSpec>(&spec.source)) {
+    PointSet set = place_lattice_in(*lattice, spec.origin, index);
+    check_distances(set.points, volume(index.surface()), {});
+    return set;
+  }
+  if (const auto* source = std::get_if<PointFileSpec>(&spec.source)) {
+    FilePoints file = read_points(*source, spec.origin);
+    for (std::size_t p = 0; p < file.points.size(); ++p)
+      if (index.location(file.points[p]) != Location::inside)
+        throw GeometryError(fmt::format("{}:{}: particle {} at {} does not lie inside the surface", source->path,
+                                        file.lines[p], p, at(file.points[p])));
+    check_distances(file.points, volume(index.surface()), file.lines);
+    return {std::move(file.points), std::nullopt};
+  }
+  throw InputError(spec.origin, "a mesh brings its own particles, and only formulation = \"delaunay\" can use it");
+}
 
 PointSet place_particles(const ParticleSpec& spec, const Solid& solid, Placement placement) {
   if (const auto* lattice = std::get_if<LatticeSpec>(&spec.source)) {
     PointSet set = place_lattice(*lattice, spec.origin, solid, placement);
-    check_distances(set.points, solid, {});
+    check_distances(set.points, solid.volume, {});
     return set;
   }
   if (const auto* source = std::get_if<PointFileSpec>(&spec.source)) {
     FilePoints file = read_points(*source, spec.origin);
     check_inside(file, source->path, solid, placement);
-    check_distances(file.points, solid, file.lines);
+    check_distances(file.points, solid.volume, file.lines);
     return {std::move(file.points), std::nullopt};
   }
   throw InputError(spec.origin, "a mesh brings its own particles, and only formulation = \"delaunay\" can use it");

@@ -10,6 +10,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/index.hpp"
 #include "tessera/geometry/solid.hpp"
+#include "tessera/geometry/surface_index.hpp"
 
 namespace tessera {
 
@@ -57,6 +58,15 @@ struct PointSet {
 /// Throws GeometryError that names the particles and their positions when points lie outside, coincide, or
 /// are closer than 1e-6 of the mean spacing; InputError when a lattice leaves no particle in the solid.
 PointSet place_particles(const ParticleSpec& spec, const Solid& solid, Placement placement);
+
+/// Places the centres of Voronoi cells in the solid that a surface encloses. Of a lattice over its bounding box it
+/// takes the cell centres that are inside and at least kLeastDepth spacings away from the surface, so that no cell
+/// becomes a sliver; jitter brings none nearer than that. Points of a file must lie inside. Errors as above.
+PointSet place_particles(const ParticleSpec& spec, const SurfaceIndex& index);
+
+/// How near to a surface cell centres of a lattice may be, in spacings: cells then reach from it over 0.7 to 1.7
+/// spacings.
+inline constexpr double kLeastDepth = 0.2;
 
 /// A permutation along a space-filling (Hilbert) curve: order[i] is the point that comes i-th.
 std::vector<Index> hilbert_order(const std::vector<Vec3>& points);

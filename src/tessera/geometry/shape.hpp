@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -34,11 +35,18 @@ struct PolygonShape {
   double thickness = 0.0;
 };
 
+/// What a triangulated surface in a file encloses.
+struct SurfaceShape {
+  std::string path;
+  double unit = 1.0;                  // length of the file's unit [m]
+  std::optional<double> split_angle;  // sides are parted by sharper edges [degrees]; else by the file's groups
+};
+
 /// A solid as the user describes it. A named shape names its sides "NAME.side".
 struct Shape {
   std::string name;
   Origin origin;
-  std::variant<BoxShape, UnionShape, DifferenceShape, PolygonShape> kind;
+  std::variant<BoxShape, UnionShape, DifferenceShape, PolygonShape, SurfaceShape> kind;
 };
 
 }  // namespace tessera

@@ -22,6 +22,8 @@ std::vector<std::string> side_names(const Solid& solid) {
 }
 
 Solid build_solid(const Shape& shape) {
+  if (std::holds_alternative<SurfaceShape>(shape.kind))
+    throw InputError(shape.origin, "a surface file needs a body of its own, in the voronoi formulation");
   if (const auto* polygon = std::get_if<PolygonShape>(&shape.kind)) return build_polygon_solid(shape, *polygon);
   return build_box_solid(shape);
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "tessera/base/units.hpp"
 #include "tessera/input/build_parts.hpp"
 #include "tessera/input/names.hpp"
 
@@ -28,6 +29,11 @@ PolygonShape build_polygon(const Reader& t) {
   return polygon;
 }
 
+SurfaceShape build_surface(const Reader& t) {
+  const DimensionalResult unit = read_quantity("1 " + t.text("units"));
+  return {t.text("file"), unit.quantity->value, t.optional_number("split_angle")};
+}
+
 Shape build_shape(const Reader& t) {
   Shape shape;
   shape.name = t.text_or_empty("name");
@@ -35,6 +41,7 @@ Shape build_shape(const Reader& t) {
   if (t.has("box")) shape.kind = BoxShape{t.table("box").vector("min"), t.table("box").vector("max")};
   if (t.has("union")) shape.kind = UnionShape{build_shapes(t, "union")};
   if (t.has("difference")) shape.kind = DifferenceShape{build_shapes(t, "difference")};
+  if (t.has("file")) shape.kind = build_surface(t);
   if (t.has("polygon")) shape.kind = build_polygon(t.table("polygon"));
   return shape;
 }

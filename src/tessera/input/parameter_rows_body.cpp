@@ -19,7 +19,7 @@ Rows body_rows() {
        .sentence = "The name by which boundary, initial and probe mean it; no two bodies share one."},
       {.key = "body.shape",
        .kind = shape,
-       .exactly_one = {"box", "union", "difference", "polygon"},
+       .exactly_one = {"box", "union", "difference", "polygon", "file"},
        .sentence = "The solid that the body fills; may be missing only when the particles come from a mesh."},
       {.key = "body.particles",
        .kind = table,
@@ -105,6 +105,23 @@ Rows body_rows() {
        .dimension = dimension::length,
        .standard = "0",
        .sentence = "Position of the lower end along z."},
+      {.key = "body.shape.file",
+       .kind = path,
+       .sentence =
+           "Closed triangulated surface, STL, OBJ, PLY, OFF or Gmsh .msh, whose inside is the solid (voronoi with "
+           "boundary = \"consistent\" only); its sides are what the file groups."},
+      {.key = "body.shape.units",
+       .kind = choice,
+       .presence = required,
+       .choices = {"m", "cm", "mm", "um"},
+       .only_with = {"file"},
+       .sentence = "The unit of the file's coordinates, of which the file itself says nothing."},
+      {.key = "body.shape.split_angle",
+       .kind = number,
+       .range = inside(0, 180),
+       .only_with = {"file"},
+       .sentence = "Parts the surface into sides \"side1\", \"side2\", ... of falling area at edges where it turns by "
+                   "more than this, in degrees; instead of the file's groups."},
   };
 }
 

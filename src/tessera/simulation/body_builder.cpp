@@ -9,7 +9,10 @@
 #include "tessera/discretization/delaunay.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
+#include "tessera/geometry/surface_load.hpp"
+#include "tessera/geometry/surface_sides.hpp"
 #include "tessera/tessellation/cells.hpp"
+#include "tessera/tessellation/surface_cells.hpp"
 
 namespace tessera {
 
@@ -128,28 +131,98 @@ void refuse_loads_on_held_components(const BuiltBody& b, double end) {
   }
 }
 
+/// Points of a body along the space-filling curve, and their cells.
+struct BodyCells {
+  std::vector<Vec3> X;
+  Cells cells;
+  double solid_volume = 0.0;  // [m3]
+};
+
+/// Constraints, loads and bonds of a body whose surface is known.
+void discretize_cells(const Case& c, const BodyCells& made, const std::vector<BoundaryCondition>& conditions,
+                      BuiltBody& b) {
+  b.pieces = constrain_faces(b.surface, pointers(conditions));
+  b.loaded = load_pieces(b.surface, pointers(conditions));
+  std::vector<Mat3> D;
+  for (const PointConstraint& p : b.pieces) D.push_back(p.D);
+  b.d = discretize(c.method, made.X, made.cells, D);
+  for (const BoundaryNode& f : b.d.nodes) b.constraints.push_back(b.pieces[static_cast<std::size_t>(f.site)]);
+  b.identities = identities_of_voronoi(b.d, made.cells, made.solid_volume);
+  refuse_loads_on_held_components(b, c.time.end);
+}
+
 BuiltBody build_voronoi(const Case& c, const BodySpec& body, const Solid& solid,
                         const std::vector<BoundaryCondition>& conditions) {
   BuiltBody b;
   const PointSet given = points_of(c, body, solid);
   b.user_number = hilbert_order(given.points);
-  const std::vector<Vec3> X = permuted(given.points, b.user_number);
-  const Cells cells = voronoi_cells(X, solid);
-  b.surface = voronoi_surface(body, solid, cells);
-
-  b.pieces = constrain_faces(b.surface, pointers(conditions));
-  b.loaded = load_pieces(b.surface, pointers(conditions));
-  std::vector<Mat3> D;
-  for (const PointConstraint& p : b.pieces) D.push_back(p.D);
-  b.d = discretize(c.method, X, cells, D);
-  for (const BoundaryNode& f : b.d.nodes) b.constraints.push_back(b.pieces[static_cast<std::size_t>(f.site)]);
-  b.identities = identities_of_voronoi(b.d, cells, solid.volume);
-  refuse_loads_on_held_components(b, c.time.end);
+  BodyCells made{permuted(given.points, b.user_number), {}, solid.volume};
+  made.cells = voronoi_cells(made.X, solid);
+  b.surface = voronoi_surface(body, solid, made.cells);
+  discretize_cells(c, made, conditions, b);
   if (c.output.fields.cells) {
-    std::vector<Polyhedron> polyhedra = voronoi_polyhedra(X, solid);
+    std::vector<Polyhedron> polyhedra = voronoi_polyhedra(made.X, solid);
     for (Polyhedron& p : polyhedra) p.particle = b.user_number[static_cast<std::size_t>(p.particle)];
     b.cells = std::move(polyhedra);
   }
+  return b;
+}
+
+/// What cannot be done yet with solids that a surface encloses.
+void check_surface_case(const Case& c, const Shape& shape) {
+  const auto refuse = [&](const std::string& what) { throw InputError(shape.origin, what); };
+  if (c.method.formulation != Formulation::voronoi)
+    refuse("a surface file needs method.formulation = \"voronoi\"; delaunay takes a tetrahedral mesh as particles");
+  if (c.method.boundary != BoundaryTreatment::consistent)
+    refuse("a surface file needs method.boundary = \"consistent\": the others want cells whose faces all bisect");
+  if (c.method.dimension != 3) refuse("a surface file needs method.dimension = 3");
+  if (c.output.fields.cells)
+    refuse(
+        "cells in a surface file cannot be written as polyhedra, for they may be hollow; set output.fields.cells = "
+        "false");
+}
+
+Surface surface_of_triangles(const BodySpec& body, const TriangleSurface& triangles, const Cells& cells) {
+  Surface s;
+  s.body = body.name;
+  const Bounds box = bounds(triangles);
+  s.lower = box.lower;
+  s.upper = box.upper;
+  for (const std::string& side : triangles.side_names) {
+    s.side_names.push_back({side});
+    if (!body.shape->name.empty()) s.side_names.back().push_back(body.shape->name + "." + side);
+  }
+  s.known_names = sorted_names(s.side_names);
+  for (const BoundaryFace& f : cells.boundary) s.pieces.push_back({f.centroid, normalized(f.area), f.side, {}});
+  return s;
+}
+
+BuiltBody build_in_surface(const Case& c, const BodySpec& body, const SurfaceShape& shape,
+                           const std::vector<BoundaryCondition>& conditions) {
+  check_surface_case(c, *body.shape);
+  CheckedSurface checked = load_surface(shape.path, shape.unit);
+  if (shape.split_angle) split_sides_at_edges(checked.surface, *shape.split_angle);
+  const SurfaceIndex index(checked.surface);
+  BuiltBody b;
+  const PointSet given = place_particles(body.particles, index);
+  b.user_number = hilbert_order(given.points);
+  BodyCells made{permuted(given.points, b.user_number), {}, volume(checked.surface)};
+  SurfaceCells found = surface_cells(made.X, index);
+  made.cells = std::move(found.cells);
+  b.notes.push_back(fmt::format("surface of body \"{}\": {}", body.name, describe(checked)));
+  for (const SideSummary& side : summarize_sides(checked.surface))
+    b.notes.push_back(
+        fmt::format("  side \"{}\": area {:.6g} m2, normal ({:.3g}, {:.3g}, {:.3g}), centre ({:.6g}, "
+                    "{:.6g}, {:.6g}) m",
+                    side.name, side.area, side.normal.x, side.normal.y, side.normal.z, side.center.x, side.center.y,
+                    side.center.z));
+  if (found.adopted > 0)
+    b.notes.push_back(
+        fmt::format("  {} parts of cells, {:.3g} m3, are cut off from their particles and went to "
+                    "neighbouring cells",
+                    found.adopted, found.adopted_volume));
+  b.surface = surface_of_triangles(body, checked.surface, made.cells);
+  discretize_cells(c, made, conditions, b);
   return b;
 }
 
@@ -220,6 +293,9 @@ std::vector<BoundaryCondition> conditions_on(const Case& c, const BodySpec& body
 }
 
 BuiltBody build_body(const Case& c, const BodySpec& body, const std::vector<BoundaryCondition>& conditions) {
+  if (body.shape)
+    if (const auto* shape = std::get_if<SurfaceShape>(&body.shape->kind))
+      return build_in_surface(c, body, *shape, conditions);
   std::optional<Solid> solid;
   if (body.shape) solid = build_solid(*body.shape);
   if (c.method.formulation == Formulation::voronoi && !solid)

@@ -25,6 +25,7 @@ struct BuiltBody {
   Identities identities;
   std::optional<Solid> solid;
   std::optional<CellGeometry> cells;
+  std::vector<std::string> notes;  // lines for the user about what was built
 };
 
 /// Conditions that a case sets on one body. In two dimensions the slab's faces are symmetric.

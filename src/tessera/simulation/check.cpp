@@ -37,6 +37,7 @@ struct Findings {
   double steps = 0.0;
   std::int64_t memory = 0;
   Identities identities;
+  std::vector<std::string> notes;
 };
 
 Findings examine(const Case& c) {
@@ -52,6 +53,7 @@ Findings examine(const Case& c) {
   f.volume = d.body_volume;
   f.shortest = model.system.shortest_length;
   f.identities = model.identities;
+  f.notes = model.notes;
   // The control of a copy that is never refused: check also tells the limit to those whose fixed step is too long.
   TimeSpec spec = c.time;
   if (auto* fixed = std::get_if<FixedStep>(&spec.step)) fixed->force = true;
@@ -76,6 +78,7 @@ std::string to_text(const Findings& f) {
       "violation)\n",
       f.setup_seconds, duration_text(f.run_seconds), static_cast<double>(f.memory) / 1e6);
   for (const auto& [name, value] : f.identities) text += fmt::format("  {:<14} {:.1e}\n", name, value);
+  for (const std::string& note : f.notes) text += note + "\n";
   return text;
 }
 
@@ -94,6 +97,7 @@ std::string to_json(const Findings& f) {
   j["estimated_run_seconds"] = f.run_seconds;
   j["peak_memory_bytes"] = f.memory;
   j["identities"] = f.identities;
+  j["notes"] = f.notes;
   return j.dump(2) + "\n";
 }
 

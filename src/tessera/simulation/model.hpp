@@ -34,6 +34,7 @@ struct Model {
   std::vector<Vec3> initial_displacement, initial_velocity;  // [m], [m/s]
   Identities identities;
   Index boundary_faces = 0;
+  std::vector<std::string> notes;     // lines for the user about what was built
   std::optional<CellGeometry> cells;  // for pictures, when the case asks for them; particles by user number
 
   /// The body of that name; an empty name means the only body.

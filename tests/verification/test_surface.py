@@ -1,0 +1,161 @@
+"""Patch tests A, B, C on solids that triangulated surfaces enclose: a ball and a torus, cells cut by their facets.
+
+As in test_patch.py, but the traction of test C is that of a dilation, P N = p N: the same on facets of any direction.
+"""
+
+import functools
+import json
+import math
+import os
+import pathlib
+import tempfile
+import unittest
+
+import runs
+
+YOUNG, POISSON, STRAIN = 1e6, 0.3, 1e-4
+LAME = YOUNG * POISSON / ((1 + POISSON) * (1 - 2 * POISSON))
+SHEAR = YOUNG / (2 * (1 + POISSON))
+FIELD = ["1e-4*(1*X + 2*Y + 3*Z)", "1e-4*(4*X + 5*Y + 6*Z)", "1e-4*(7*X + 8*Y + 9*Z)"]
+DILATION = [f"{STRAIN}*{x}" for x in "XYZ"]
+RAMP = "min(t/5, 1)^2*(3 - 2*min(t/5, 1))"
+ROUND_OFF = 1e-13  # of the size of the body
+
+
+def ball(rings=10):
+    """Vertices and triangles of a ball of radius 1."""
+    around = 2 * rings
+    vertices = [(0.0, 0.0, 1.0)]
+    for i in range(1, rings):
+        theta = math.pi * i / rings
+        vertices += [(math.sin(theta) * math.cos(math.pi * j / rings), math.sin(theta) * math.sin(math.pi * j / rings),
+                      math.cos(theta)) for j in range(around)]
+    vertices.append((0.0, 0.0, -1.0))
+    at = lambda i, j: 1 + (i - 1) * around + j % around
+    triangles = []
+    for j in range(around):
+        triangles += [(0, at(1, j), at(1, j + 1)), (at(rings - 1, j), len(vertices) - 1, at(rings - 1, j + 1))]
+        for i in range(1, rings - 1):
+            triangles += [(at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))]
+    return vertices, triangles
+
+
+def torus(around=20, across=10, large=0.7, small=0.3):
+    vertices, triangles = [], []
+    for i in range(around):
+        for j in range(across):
+            u, v = 2 * math.pi * i / around, 2 * math.pi * j / across
+            r = large + small * math.cos(v)
+            vertices.append((r * math.cos(u), r * math.sin(u), small * math.sin(v)))
+            a, b = i * across, (i + 1) % around * across
+            k = (j + 1) % across
+            triangles += [(a + j, b + j, b + k), (a + j, b + k, a + k)]
+    return vertices, triangles
+
+
+BODIES = {"ball": (ball, 0.3, "Z < -0.5"), "torus": (torus, 0.2, "X < -0.5")}
+
+
+def write_off(path, vertices, triangles):
+    lines = ["OFF", f"{len(vertices)} {len(triangles)} 0"]
+    lines += [" ".join(repr(1000 * x) for x in v) for v in vertices]
+    lines += ["3 " + " ".join(map(str, t)) for t in triangles]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def boundary(test, held):
+    """The boundary conditions of a test."""
+    if test != "c":
+        field = FIELD if test == "a" else [f"{u}*{RAMP}" for u in FIELD]
+        return f'[[boundary]]\nwhere = "surface"\ndisplacement = {json.dumps(field)}\n'
+    stretch = 1 + STRAIN
+    stress = (3 * LAME * math.log(stretch) - SHEAR) / stretch + SHEAR * stretch
+    field = [f"{u}*{RAMP}" for u in DILATION]
+    return (f'[[boundary]]\nwhere = "{held}"\ndisplacement = {json.dumps(field)}\n'
+            f'[[boundary]]\nwhere = "{held.replace("<", ">=")}"\npressure = "{-stress!r}*{RAMP}"\n')
+
+
+@functools.cache
+def result(body, test):
+    make, spacing, held = BODIES[body]
+    field = DILATION if test == "c" else FIELD
+    text = f"""
+[[body]]
+shape = {{ file = "{body}.off", units = "mm" }}
+particles = {{ spacing = {spacing}, jitter = 0.25, seed = 1 }}
+material = "rubber"
+[[material]]
+name = "rubber"
+young = {YOUNG}
+poisson = {POISSON}
+density = 1000
+{boundary(test, held)}
+[time]
+end = {0 if test == "a" else 15}
+damping = 15
+[output]
+fields = {{ format = "csv", quantities = ["displacement", "force", "first_piola_kirchhoff"] }}
+[[reference]]
+name = "exact"
+displacement = {json.dumps(field)}
+"""
+    if test == "a":
+        text += f"[[initial]]\ndisplacement = {json.dumps(field)}\n"
+    with tempfile.TemporaryDirectory() as folder:
+        write_off(pathlib.Path(folder, f"{body}.off"), *make())
+        case = pathlib.Path(folder, "case.toml")
+        case.write_text(text)
+        return runs.run(os.fspath(case))
+
+
+def error(r):
+    """Largest error of the displacement of a particle (m)."""
+    return r.summary["errors"]["exact"]["displacement_max"]
+
+
+class SurfacePatch(unittest.TestCase):
+    def test_a(self):
+        """The forces of the exact field vanish."""
+        for body, (_, spacing, _) in BODIES.items():
+            r = result(body, "a")
+            largest = max(abs(s) for i in "xyz" for j in "xyz" for s in r.frame()[f"first_piola_kirchhoff_{i}{j}"])
+            self.assertGreater(r.summary["particles"], 50)
+            self.assertLess(error(r), 1e-15)
+            self.assertLess(r.summary["max_force_residual"], 1e-10 * largest * spacing**2, body)
+
+    def test_b(self):
+        """The particles follow the boundary."""
+        for body in BODIES:
+            self.assertLess(error(result(body, "b")), ROUND_OFF, body)
+
+    def test_c(self):
+        """The particles follow the tractions."""
+        for body in BODIES:
+            self.assertLess(error(result(body, "c")), ROUND_OFF, body)
+
+
+class Part(unittest.TestCase):
+    def test_numbers_of_the_readme(self):
+        r = runs.run("stl-part/stl-part.toml")
+        last = {name: column[-1] for name, column in r.history.items()}
+        load = 5e5 * 2 * 28e-3 * math.sin(math.pi / 48) * 10e-3
+        self.assertEqual(r.summary["particles"], 896)
+        self.assertEqual(r.summary["boundary_faces"], 1263)
+        self.assertAlmostEqual(last["bore.fy"], -load, delta=1e-4 * load)
+        self.assertLess(max(abs(last["bore.fx"]), abs(last["bore.fz"])), 1e-4)
+        self.assertAlmostEqual(last["tip.y"] - 1.8e-3, -0.196e-3, delta=1e-6)
+        self.assertLess(r.summary["identities"]["volume"], 1e-12)
+
+
+def tearDownModule():
+    rows = []
+    for body in BODIES:
+        a, b, c = (result(body, test) for test in "abc")
+        rows += [(f"{body}, test A: largest force", "ours", None, f"{a.summary['max_force_residual']:.2g} N", None),
+                 (f"{body}, test B: largest error", "ours", None, f"{1e3 * error(b):.2g} mm", f"{1e3 * ROUND_OFF:.2g} mm"),
+                 (f"{body}, test C: largest error", "ours", None, f"{1e3 * error(c):.2g} mm", f"{1e3 * ROUND_OFF:.2g} mm")]
+    runs.record("surfaces", rows)
+
+
+if __name__ == "__main__":
+    runs.main()
