@@ -88,7 +88,13 @@ void execute(const BenchCommand& command) {
   BenchOptions options;
   if (command.particles > 0) options.particles = command.particles;
   if (command.threads > 0) options.threads = command.threads;
-  if (command.formulation == "delaunay") options.formulation = Formulation::delaunay;
+  if (!command.formulation.empty())
+    options.formulation = command.formulation == "delaunay" ? Formulation::delaunay : Formulation::voronoi;
+  if (command.accuracy) {
+    options.parts = BenchParts::accuracy;
+  } else if (options.particles || options.threads) {
+    options.parts = BenchParts::speed;
+  }
   const BenchReport report = run_bench(options);
   fmt::print("{}", command.json ? to_json(report) : to_table(report));
 }

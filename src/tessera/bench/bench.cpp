@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "tessera/bench/layout.hpp"
 #include "tessera/bench/memory.hpp"
@@ -178,60 +177,38 @@ std::vector<int> thread_counts(const BenchOptions& options) {
   return counts;
 }
 
-}  // namespace
-
-BenchReport run_bench(const BenchOptions& options) {
-  BenchReport report;
+void measure_speed(const BenchOptions& options, BenchReport& report) {
   const std::vector<int> threads = thread_counts(options);
+  const Formulation formulation = options.formulation.value_or(Formulation::voronoi);
   for (int t : threads) {
+    fmt::print(stderr, "bench: triad, {} thread{}\n", t, t == 1 ? "" : "s");
     parallel::set_threads(t);
     report.triad_bytes_per_second[t] = triad_bandwidth();
   }
   std::vector<Index> particles(std::begin(sizes), std::end(sizes));
   if (options.particles) particles = {*options.particles};
   for (Index n : particles)
-    for (int t : threads) report.rows.push_back(measure(n, t, options.formulation));
+    for (int t : threads) {
+      fmt::print(stderr, "bench: {} particles, {} thread{}\n", n, t, t == 1 ? "" : "s");
+      report.rows.push_back(measure(n, t, formulation));
+    }
+}
+
+void measure_accuracy(const BenchOptions& options, int threads, BenchReport& report) {
+  parallel::set_threads(options.threads.value_or(threads));
+  std::vector<Formulation> formulations = {Formulation::delaunay, Formulation::voronoi};
+  if (options.formulation) formulations = {*options.formulation};
+  for (Formulation formulation : formulations) report.accuracy.push_back(measure_accuracy(formulation));
+}
+
+}  // namespace
+
+BenchReport run_bench(const BenchOptions& options) {
+  BenchReport report;
+  const int all_threads = parallel::threads();
+  if (options.parts != BenchParts::accuracy) measure_speed(options, report);
+  if (options.parts != BenchParts::speed) measure_accuracy(options, all_threads, report);
   return report;
-}
-
-std::string to_json(const BenchReport& report) {
-  nlohmann::ordered_json j;
-  for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
-    j["triad_bytes_per_second"][std::to_string(threads)] = bandwidth;
-  j["results"] = nlohmann::ordered_json::array();
-  for (const BenchRow& r : report.rows) {
-    j["results"].push_back({{"particles", r.particles},
-                            {"threads", r.threads},
-                            {"formulation", r.formulation},
-                            {"particle_steps_per_second", r.particle_steps_per_second},
-                            {"bytes_per_particle_step", r.bytes_per_particle_step},
-                            {"bytes_per_particle", r.bytes_per_particle},
-                            {"setup_seconds", r.setup_seconds},
-                            {"stages", r.stages}});
-    if (r.setup_peak_bytes) j["results"].back()["setup_peak_bytes_per_particle"] = *r.setup_peak_bytes;
-  }
-  return j.dump(2) + "\n";
-}
-
-std::string to_table(const BenchReport& report) {
-  std::string text;
-  for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
-    text += fmt::format("triad on {} thread{}: {:.1f} GB/s\n", threads, threads == 1 ? "" : "s", 1e-9 * bandwidth);
-  text += fmt::format("\n{:>10} {:>8} {:>9} {:>10} {:>12} {:>8} {:>9} {:>9}  {}\n", "particles", "threads", "set-up s",
-                      "its peak B", "M p-steps/s", "GB/s", "of triad", "B/particle",
-                      "strain, contact, stress, force of a step");
-  for (const BenchRow& r : report.rows) {
-    const double traffic = r.particle_steps_per_second * r.bytes_per_particle_step;
-    const double step = r.stages.at("step");
-    text += fmt::format(
-        "{:>10} {:>8} {:>9.2f} {:>10} {:>12.2f} {:>8.1f} {:>8.0f}% {:>10.0f}  {:.0f}%, {:.0f}%, {:.0f}%, {:.0f}%\n",
-        r.particles, r.threads, r.setup_seconds,
-        r.setup_peak_bytes ? fmt::format("{:.0f}", *r.setup_peak_bytes) : "unknown", 1e-6 * r.particle_steps_per_second,
-        1e-9 * traffic, 100.0 * traffic / report.triad_bytes_per_second.at(r.threads), r.bytes_per_particle,
-        100.0 * r.stages.at("strain") / step, 100.0 * r.stages.at("contact") / step,
-        100.0 * r.stages.at("stress") / step, 100.0 * r.stages.at("force") / step);
-  }
-  return text;
 }
 
 }  // namespace tessera

@@ -5,15 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "tessera/simulation/case.hpp"
+#include "tessera/bench/accuracy.hpp"
 
 namespace tessera {
 
-/// What to measure; unset: all sizes, all numbers of threads.
+/// Speed: set-up, sweeps and steps of a cube. Accuracy: the time that an error of the cantilever takes.
+enum class BenchParts { everything, speed, accuracy };
+
+/// What to measure; unset: all sizes, all numbers of threads (accuracy: as many as there are), voronoi for the speed
+/// and both formulations for the accuracy.
 struct BenchOptions {
   std::optional<Index> particles;
   std::optional<int> threads;
-  Formulation formulation = Formulation::voronoi;
+  std::optional<Formulation> formulation;
+  BenchParts parts = BenchParts::everything;
 };
 
 /// One size with one number of threads: particles of a jittered (0.25) lattice in a box.
@@ -32,9 +37,10 @@ struct BenchRow {
 struct BenchReport {
   std::map<int, double> triad_bytes_per_second;  // by number of threads
   std::vector<BenchRow> rows;
+  std::vector<AccuracyForTime> accuracy;
 };
 
-/// Measures set-up, sweeps and whole steps on this machine.
+/// Measures on this machine; says on stderr what runs. Throws UsageError when a size does not fit into memory.
 BenchReport run_bench(const BenchOptions& options);
 
 std::string to_json(const BenchReport& report);

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tessera/bench/bench.hpp"
+
+namespace tessera {
+
+namespace {
+
+nlohmann::ordered_json accuracy_json(const AccuracyForTime& a) {
+  nlohmann::ordered_json j = {{"formulation", a.formulation}, {"threads", a.threads}};
+  j["rows"] = nlohmann::ordered_json::array();
+  for (const AccuracyRow& r : a.rows)
+    j["rows"].push_back({{"per_metre", r.per_metre},
+                         {"particles", r.particles},
+                         {"steps", r.steps},
+                         {"seconds", r.seconds},
+                         {"error", r.error}});
+  j["wanted_error"] = wanted_error;
+  j["seconds_to_wanted_error"] = nullptr;
+  if (!a.to_wanted_error) return j;
+  j["seconds_to_wanted_error"] = a.to_wanted_error->seconds;
+  j["extrapolated"] = a.to_wanted_error->extrapolated;
+  return j;
+}
+
+std::string speed_table(const BenchReport& report) {
+  std::string text;
+  for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
+    text += fmt::format("triad on {} thread{}: {:.1f} GB/s\n", threads, threads == 1 ? "" : "s", 1e-9 * bandwidth);
+  text += fmt::format("\n{:>10} {:>8} {:>9} {:>10} {:>12} {:>8} {:>9} {:>9}  {}\n", "particles", "threads", "set-up s",
+                      "its peak B", "M p-steps/s", "GB/s", "of triad", "B/particle",
+                      "strain, contact, stress, force of a step");
+  for (const BenchRow& r : report.rows) {
+    const double traffic = r.particle_steps_per_second * r.bytes_per_particle_step;
+    const double step = r.stages.at("step");
+    text += fmt::format(
+        "{:>10} {:>8} {:>9.2f} {:>10} {:>12.2f} {:>8.1f} {:>8.0f}% {:>10.0f}  {:.0f}%, {:.0f}%, {:.0f}%, {:.0f}%\n",
+        r.particles, r.threads, r.setup_seconds,
+        r.setup_peak_bytes ? fmt::format("{:.0f}", *r.setup_peak_bytes) : "unknown", 1e-6 * r.particle_steps_per_second,
+        1e-9 * traffic, 100.0 * traffic / report.triad_bytes_per_second.at(r.threads), r.bytes_per_particle,
+        100.0 * r.stages.at("strain") / step, 100.0 * r.stages.at("contact") / step,
+        100.0 * r.stages.at("stress") / step, 100.0 * r.stages.at("force") / step);
+  }
+  return text;
+}
+
+std::string accuracy_conclusion(const AccuracyForTime& a) {
+  const std::string start = fmt::format("{}, {:g}% error:", a.formulation, 100.0 * wanted_error);
+  if (!a.to_wanted_error) return fmt::format("{} no estimate, the errors do not fall\n", start);
+  return fmt::format("{} {:.3g} s{}\n", start, a.to_wanted_error->seconds,
+                     a.to_wanted_error->extrapolated ? " (extrapolated)" : "");
+}
+
+std::string accuracy_table(const std::vector<AccuracyForTime>& accuracy) {
+  std::string text =
+      fmt::format("cantilever, error of the tip's path over 0..1 s\n{:>12} {:>8} {:>10} {:>10} {:>8} {:>10} {:>8}\n",
+                  "formulation", "threads", "per metre", "particles", "steps", "steps s", "error");
+  for (const AccuracyForTime& a : accuracy)
+    for (const AccuracyRow& r : a.rows)
+      text += fmt::format("{:>12} {:>8} {:>10} {:>10} {:>8} {:>10.3g} {:>7.2f}%\n", a.formulation, a.threads,
+                          r.per_metre, r.particles, r.steps, r.seconds, 100.0 * r.error);
+  for (const AccuracyForTime& a : accuracy) text += accuracy_conclusion(a);
+  return text;
+}
+
+}  // namespace
+
+std::string to_json(const BenchReport& report) {
+  nlohmann::ordered_json j;
+  j["triad_bytes_per_second"] = nlohmann::ordered_json::object();
+  for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
+    j["triad_bytes_per_second"][std::to_string(threads)] = bandwidth;
+  j["results"] = nlohmann::ordered_json::array();
+  for (const BenchRow& r : report.rows) {
+    j["results"].push_back({{"particles", r.particles},
+                            {"threads", r.threads},
+                            {"formulation", r.formulation},
+                            {"particle_steps_per_second", r.particle_steps_per_second},
+                            {"bytes_per_particle_step", r.bytes_per_particle_step},
+                            {"bytes_per_particle", r.bytes_per_particle},
+                            {"setup_seconds", r.setup_seconds},
+                            {"stages", r.stages}});
+    if (r.setup_peak_bytes) j["results"].back()["setup_peak_bytes_per_particle"] = *r.setup_peak_bytes;
+  }
+  for (const AccuracyForTime& a : report.accuracy) j["accuracy_for_time"].push_back(accuracy_json(a));
+  return j.dump(2) + "\n";
+}
+
+std::string to_table(const BenchReport& report) {
+  std::string text;
+  if (!report.rows.empty()) text += speed_table(report);
+  if (!report.rows.empty() && !report.accuracy.empty()) text += "\n";
+  if (!report.accuracy.empty()) text += accuracy_table(report.accuracy);
+  return text;
+}
+
+}  // namespace tessera
