@@ -101,6 +101,9 @@ class Usage(CliTest):
         for threads in ("0", "-1", "many"):
             self.check_fails(USAGE, "--threads", arguments=["run", "case.toml", "-j", threads])
 
+    def test_bench_of_accuracy_has_its_own_sizes(self):
+        self.check_fails(USAGE, "--accuracy", "--particles", arguments=["bench", "--accuracy", "--particles", "1000"])
+
     def test_threads_of_the_environment(self):
         self.write(CASE)
         with unittest.mock.patch.dict(os.environ, {"OMP_NUM_THREADS": "many"}):

@@ -11,15 +11,17 @@ namespace tessera {
 
 namespace {
 
-/// A line of /proc/self/status such as "VmHWM:   1234 kB", in bytes.
-std::optional<double> status(const std::string& name) {
-  std::ifstream file("/proc/self/status");
+/// A line such as "VmHWM:   1234 kB" of a file of the system, in bytes.
+std::optional<double> line_of(const char* path, const std::string& name) {
+  std::ifstream file(path);
   for (std::string word; file >> word;) {
     double kilobytes = 0.0;
     if (word == name + ":" && file >> kilobytes) return 1024.0 * kilobytes;
   }
   return std::nullopt;
 }
+
+std::optional<double> status(const std::string& name) { return line_of("/proc/self/status", name); }
 
 /// Makes the peak start anew from what is resident now.
 bool reset_peak() {
@@ -36,6 +38,8 @@ void hand_back_free_memory() {
 }
 
 }  // namespace
+
+std::optional<double> available_memory() { return line_of("/proc/meminfo", "MemAvailable"); }
 
 PeakMemory::PeakMemory() {
   hand_back_free_memory();

@@ -1,0 +1,129 @@
+#include "tessera/bench/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "tessera/bench/cantilever.hpp"
+#include "tessera/bench/cantilever_reference.hpp"
+
+namespace tessera {
+namespace {
+
+/// Errors that fall with the square of the spacing and times that grow with its fourth power.
+AccuracyRow row(int per_metre) {
+  AccuracyRow r;
+  r.per_metre = per_metre;
+  r.seconds = 1e-3 * std::pow(per_metre, 4);
+  r.error = 1.0 / (per_metre * per_metre);
+  return r;
+}
+
+double seconds_for(double error) { return 1e-3 / (error * error); }
+
+TEST(TimeToError, LiesOnTheLineBetweenTheRowsAroundIt) {
+  const std::vector<AccuracyRow> rows = {row(4), row(8), row(16)};
+  for (const double error : {0.03, 0.01, 1.0 / 256.0}) {
+    const auto time = time_to_error(rows, error);
+    ASSERT_TRUE(time);
+    EXPECT_NEAR(time->seconds, seconds_for(error), 1e-9 * seconds_for(error));
+    EXPECT_FALSE(time->extrapolated);
+  }
+}
+
+TEST(TimeToError, TakesTheRowsAroundItEvenIfOthersHaveAnotherOrder) {
+  std::vector<AccuracyRow> rows = {row(4), row(8), row(16)};
+  rows[0].error = 0.9;
+  EXPECT_NEAR(time_to_error(rows, 0.01)->seconds, seconds_for(0.01), 1e-9);
+}
+
+TEST(TimeToError, SaysWhenItIsExtrapolated) {
+  const std::vector<AccuracyRow> rows = {row(4), row(8)};
+  for (const double error : {0.01, 0.5}) {
+    const auto time = time_to_error(rows, error);
+    ASSERT_TRUE(time);
+    EXPECT_NEAR(time->seconds, seconds_for(error), 1e-9 * seconds_for(error));
+    EXPECT_TRUE(time->extrapolated);
+  }
+}
+
+TEST(TimeToError, IsUnknownWithoutAnOrder) {
+  EXPECT_FALSE(time_to_error(std::vector<AccuracyRow>{row(4)}, 0.01));
+  std::vector<AccuracyRow> rows = {row(4), row(8)};
+  rows[1].error = rows[0].error;
+  EXPECT_FALSE(time_to_error(rows, 0.01));
+  rows[1].error = 2.0 * rows[0].error;
+  EXPECT_FALSE(time_to_error(rows, 0.01));
+  rows[1].error = std::nan("");
+  EXPECT_FALSE(time_to_error(rows, 0.01));
+}
+
+/// The rows of the reference's file as numbers, by the names of its header.
+std::vector<std::map<std::string, double>> reference_file() {
+  std::ifstream file(TESSERA_SOURCE_DIR "/tests/data/reference/cantilever.csv");
+  std::string line, name;
+  std::getline(file, line);
+  std::vector<std::string> names;
+  for (std::istringstream header(line); std::getline(header, name, ',');) names.push_back(name);
+  std::vector<std::map<std::string, double>> rows;
+  while (std::getline(file, line)) {
+    std::istringstream values(line);
+    std::string value;
+    rows.emplace_back();
+    for (const std::string& n : names) {
+      std::getline(values, value, ',');
+      rows.back()[n] = std::stod(value);
+    }
+  }
+  return rows;
+}
+
+TEST(CantileverReference, IsThatOfTheFileUpToOneSecond) {
+  const auto rows = reference_file();
+  ASSERT_EQ(std::size(cantilever_reference), 101U);
+  EXPECT_EQ(cantilever_reference[100].t, 1.0);
+  for (std::size_t i = 0; i < std::size(cantilever_reference); ++i) {
+    const CantileverReference& r = cantilever_reference[i];
+    EXPECT_EQ(r.t, rows[i].at("t"));
+    const std::pair<const char*, const double*> points[] = {
+        {"corner_top", r.corner_top}, {"in8", r.in8}, {"in16", r.in16}, {"in32", r.in32}};
+    for (const auto& [name, x] : points) {
+      EXPECT_EQ(x[0], rows[i].at(std::string("x1_") + name)) << i;
+      EXPECT_EQ(x[1], rows[i].at(std::string("x3_") + name)) << i;
+    }
+  }
+}
+
+CantileverPath path_of(const double (CantileverReference::*point)[2]) {
+  CantileverPath path;
+  for (const CantileverReference& r : cantilever_reference) path.x.push_back({(r.*point)[0], 0.3, (r.*point)[1]});
+  return path;
+}
+
+TEST(PathError, IsZeroOnTheReferenceAndOneForWhatDoesNotMove) {
+  EXPECT_EQ(path_error(path_of(&CantileverReference::corner_top), Formulation::delaunay, 8), 0.0);
+  EXPECT_EQ(path_error(path_of(&CantileverReference::in8), Formulation::voronoi, 4), 0.0);
+  EXPECT_EQ(path_error(path_of(&CantileverReference::in16), Formulation::voronoi, 8), 0.0);
+  EXPECT_EQ(path_error(path_of(&CantileverReference::in32), Formulation::voronoi, 16), 0.0);
+  CantileverPath still;
+  still.x.assign(std::size(cantilever_reference), {6.0, 0.5, 0.5});
+  EXPECT_NEAR(path_error(still, Formulation::delaunay, 8), 1.0, 1e-12);
+}
+
+/// The bound of the verification's test at 4 per metre, and the errors that the program's own probes give there.
+TEST(Cantilever, HasTheErrorsThatItsExampleHas) {
+  const CantileverPath delaunay = run_cantilever(Formulation::delaunay, 4);
+  EXPECT_EQ(delaunay.particles, 25 * 5 * 5);
+  EXPECT_LT(path_error(delaunay, Formulation::delaunay, 4), 0.03);
+  const CantileverPath voronoi = run_cantilever(Formulation::voronoi, 4);
+  EXPECT_EQ(voronoi.particles, 24 * 4 * 4);
+  EXPECT_NEAR(path_error(voronoi, Formulation::voronoi, 4), 0.110, 0.003);
+}
+
+TEST(Cantilever, RefusesSizesWithoutReference) { EXPECT_THROW(run_cantilever(Formulation::voronoi, 5), UsageError); }
+
+}  // namespace
+}  // namespace tessera
