@@ -20,4 +20,4 @@ if [ -z "$clang_format" ]; then
   echo "format: SKIPPED, clang-format 14 is not installed (Debian: clang-format)"
   exit 77
 fi
-find src tests docs \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z | xargs -0 "$clang_format" "${mode[@]}"
+find src tests docs benchmarks \( -name '*.hpp' -o -name '*.cpp' \) -print0 | sort -z | xargs -0 "$clang_format" "${mode[@]}"

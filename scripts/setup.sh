@@ -13,7 +13,8 @@ optional=()  # what only some tests need
 list_only=no
 for argument in "$@"; do
   case "$argument" in
-    --test) optional+=(python3-vtk9 python3-numpy valgrind) ;;  # read result files as ParaView does; count instructions
+    # Read result files as ParaView does; count instructions; build the benchmarks.
+    --test) optional+=(python3-vtk9 python3-numpy valgrind libbenchmark-dev) ;;
     --list) list_only=yes ;;
     *) echo "setup.sh: unknown argument '$argument' (allowed: --test, --list)" >&2; exit 2 ;;
   esac
