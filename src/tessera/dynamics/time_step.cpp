@@ -6,16 +6,37 @@
 #include <cmath>
 #include <limits>
 
+#include "tessera/base/stopwatch.hpp"
+#include "tessera/dynamics/local_stiffness.hpp"
+
 namespace tessera {
 
 namespace {
 
-// Steps between two spectral estimates: an estimate costs some thirty evaluations of the forces.
+// Evaluations of the forces that choosing the step may take: at the start a share of the steps that the run will have,
+// later a share of the steps done. Together two in a hundred.
+constexpr double starting_share = 0.015, running_share = 0.005;
+// The bound without evaluations makes the steps up to this many times shorter than they need be.
+constexpr double looseness_of_bound = 2.0;
+// An estimate in the course of a run starts from the last vector and rarely takes more evaluations than this; it is
+// not worth starting with fewer.
+constexpr int evaluations_again = 10, most_evaluations = 32;
+// One per cent in the frequency, far less than the safety leaves.
+constexpr double tolerance = 0.02;
+// Steps between two estimates.
 constexpr std::int64_t first_interval = 500, shortest_interval = 50, longest_interval = 4000;
-// The automatic step stays below this share of the spectral limit.
-constexpr double largest_share_of_limit = 0.9;
 // Change of the limit between two estimates that calls for closer watch.
 constexpr double watchful_change = 0.02;
+// Stiffening since the last estimate (of moduli: twice that of frequencies) that calls for a new one.
+constexpr double noticeable_growth = 1.05;
+// Steps between two looks at the deformation, which cost about a fifth of an evaluation, and the change of the
+// smallest J, known at every step, that does not wait for the next look.
+constexpr std::int64_t shortest_watch = 5, longest_watch = 50;
+constexpr double watchful_growth = 0.01, watchful_compression = 0.01;
+// Shorter steps than this share of the present one are worth a change.
+constexpr double worthwhile_step = 0.99;
+// The step by bonds stays below this share of the spectral limit.
+constexpr double largest_share_of_limit = 0.9;
 // How much the last step may be longer than the others. The time of many steps adds up with round-off, and what that
 // leaves of the run must not become a step of its own: accelerations of walls over such a step are noise.
 constexpr double last_step_stretch = 1e-3;
@@ -26,6 +47,17 @@ const Material& material(const System& s, const MaterialRange& r) {
 
 /// Steps that divide the rest of the run evenly, so that it ends on time without a short last step.
 double divide_evenly(double rest, double dt) { return rest / std::ceil(rest / dt * (1.0 - 1e-12)); }
+
+/// Ratio of viscous to elastic plane-wave modulus, the largest over the particles [s].
+double viscous_time(const System& s) {
+  double tau = 0.0;
+  if (!s.viscosity.empty())
+    for (const MaterialRange& r : s.ranges)
+      tau = std::max(tau, largest_of(r.end - r.begin, [&](std::int64_t i) {
+        return s.viscosity[static_cast<std::size_t>(r.begin + i)].linear / material(s, r).plane_wave_modulus();
+      }));
+  return tau;
+}
 
 }  // namespace
 
@@ -39,67 +71,144 @@ double shortest_travel_time(const System& s) {
 }
 
 double stable_step(const System& s, double omega) {
-  double tau = 0.0;  // ratio of viscous to elastic plane-wave modulus
-  if (!s.viscosity.empty())
-    for (const MaterialRange& r : s.ranges)
-      for (Index a = r.begin; a < r.end; ++a)
-        tau = std::max(tau, s.viscosity[static_cast<std::size_t>(a)].linear / material(s, r).plane_wave_modulus());
-  const double z = 0.5 * tau * omega;
+  const double z = 0.5 * viscous_time(s) * omega;
   return 2.0 / omega * (std::sqrt(1.0 + z * z) - z);
 }
 
-StepControl::StepControl(const TimeSpec& spec, const System& system, const State& state, std::span<const Vec3> walls)
-    : spec_(spec), system_(system), estimator_(system) {
-  memory_.interval = first_interval;
-  const bool by_bonds = std::holds_alternative<AutoStep>(spec.step);
-  if (by_bonds) memory_.dt = spec.safety * shortest_travel_time(system);
-  if (by_bonds && spec.end == 0.0) return;
-  estimate(0, state, walls);
-  // Slivers can make a body stiffer than its shortest bond says.
-  if (by_bonds && memory_.dt > largest_share_of_limit * limit_) memory_.dt = largest_share_of_limit * limit_;
-  if (std::holds_alternative<AutoSpectralStep>(spec.step)) memory_.dt = spectral_step();
-  if (const auto* fixed = std::get_if<FixedStep>(&spec.step)) {
-    if (fixed->dt > limit_ && !fixed->force)
-      throw InputError(spec.origin,
-                       fmt::format("the step of {:g} s is above the spectral limit of {:g} s; take a smaller one, "
-                                   "\"auto\" or \"auto-spectral\" (or force = true)",
-                                   fixed->dt, limit_));
-    memory_.dt = fixed->dt;
-  } else if (spec.end > 0.0) {
-    memory_.dt = divide_evenly(spec.end, memory_.dt);
-  }
-}
+double frequency_of_step(const System& s, double dt) { return 1.0 / std::sqrt(0.5 * dt * (0.5 * dt + viscous_time(s))); }
 
-void StepControl::estimate(std::int64_t step, const State& state, std::span<const Vec3> walls) {
-  const double omega = estimator_.largest_frequency(state, walls, system_.shortest_length);
-  const double limit = omega > 0.0 ? stable_step(system_, omega) : std::numeric_limits<double>::infinity();
-  if (limit_ > 0.0) {
-    const bool changed = std::abs(limit - limit_) > watchful_change * limit_;
-    memory_.interval =
-        std::clamp(changed ? memory_.interval / 2 : memory_.interval * 2, shortest_interval, longest_interval);
-  }
-  limit_ = memory_.limit = limit;
-  memory_.estimated_at = step;
+StepControl::StepControl(const TimeSpec& spec, const System& system, const State& state, std::span<const Vec3> walls,
+                         std::span<const double> mass)
+    : spec_(spec), system_(system), mass_(mass), estimator_(system, mass) {
+  const Stopwatch watch(seconds_);
+  if (const auto* fixed = std::get_if<FixedStep>(&spec.step)) start_fixed(*fixed, state, walls);
+  if (std::holds_alternative<AutoStep>(spec.step)) start_by_bonds(state, walls);
+  if (std::holds_alternative<AutoSpectralStep>(spec.step)) start_spectral(state, walls);
 }
 
 /// A body of which nothing can move has no limit.
-double StepControl::spectral_step() const {
-  return std::isfinite(limit_) ? spec_.safety * limit_ : std::max(spec_.end, 1.0);
+double StepControl::limit_of(double omega) const {
+  return omega > 0.0 ? stable_step(system_, omega) : std::numeric_limits<double>::infinity();
 }
 
-double StepControl::next(std::int64_t step, double time, const State& state, std::span<const Vec3> walls) {
-  if (std::holds_alternative<AutoSpectralStep>(spec_.step) && step >= memory_.estimated_at + memory_.interval) {
-    estimate(step, state, walls);
-    memory_.dt = divide_evenly(spec_.end - time, spectral_step());
+double StepControl::estimate(const State& state, std::span<const Vec3> walls, const Effort& effort) {
+  return estimator_.largest_frequency(state, walls, shortest_length(system_.d), effort);
+}
+
+void StepControl::start_fixed(const FixedStep& fixed, const State& state, std::span<const Vec3> walls) {
+  memory_.dt = fixed.dt;
+  Effort effort;
+  effort.enough = frequency_of_step(system_, fixed.dt);
+  memory_.limit = limit_of(estimate(state, walls, effort));
+  if (fixed.dt > memory_.limit && !fixed.force)
+    throw InputError(spec_.origin,
+                     fmt::format("the step of {:g} s is above the spectral limit of {:g} s; take a smaller one, "
+                                 "\"auto\" or \"auto-spectral\" (or force = true)",
+                                 fixed.dt, memory_.limit));
+}
+
+void StepControl::start_by_bonds(const State& state, std::span<const Vec3> walls) {
+  memory_.dt = spec_.safety * shortest_travel_time(system_);
+  if (spec_.end == 0.0) return;
+  // Slivers can make a body stiffer than its shortest bond says.
+  Effort effort;
+  effort.enough = frequency_of_step(system_, memory_.dt / largest_share_of_limit);
+  memory_.limit = limit_of(estimate(state, walls, effort));
+  memory_.dt = divide_evenly(spec_.end, std::min(memory_.dt, largest_share_of_limit * memory_.limit));
+}
+
+void StepControl::start_spectral(const State& state, std::span<const Vec3> walls) {
+  if (spec_.end == 0.0) return;
+  stiffening_.emplace(system_);
+  memory_.estimate_interval = first_interval;
+  memory_.watch_interval = shortest_watch;
+  double omega = std::numeric_limits<double>::infinity();
+  if (has_potential(system_.d)) omega = frequency_bound(local_stiffness(system_), mass_);
+  memory_.limit = limit_of(omega);
+  Effort effort{most_evaluations, tolerance, 0.0, 0.5 * starting_share * spec_.end / spec_.safety};
+  // A short run is done before an estimate pays.
+  if (effort.evaluations_per_frequency * omega >= looseness_of_bound * SpectralEstimator::fewest_evaluations)
+    memory_.limit = limit_of(std::min(omega, estimate(state, walls, effort)));
+  memory_.dt = divide_evenly(spec_.end, automatic_step());
+}
+
+double StepControl::automatic_step() const {
+  const double limit = memory_.limit / std::sqrt(std::max(memory_.growth, 1.0));
+  return std::isfinite(limit) ? spec_.safety * limit : std::max(spec_.end, 1.0);
+}
+
+/// Evaluations that may have been made by this step.
+int StepControl::allowance(std::int64_t step) const {
+  const double steps = std::isfinite(memory_.limit) ? spec_.end / (spec_.safety * memory_.limit) : 0.0;
+  return static_cast<int>(std::min(starting_share * steps + running_share * static_cast<double>(step), 1e9));
+}
+
+bool StepControl::estimate_due(std::int64_t step) const {
+  const std::int64_t age = step - memory_.estimated_at;
+  const bool wanted =
+      age >= memory_.estimate_interval || (age >= shortest_interval && memory_.growth > noticeable_growth);
+  return wanted && evaluations() + evaluations_again <= allowance(step);
+}
+
+void StepControl::estimate_again(std::int64_t step, const State& state, std::span<const Vec3> walls,
+                                 const Forces& forces) {
+  const auto left = static_cast<int>(allowance(step) - evaluations());
+  const Effort effort{std::min(left, most_evaluations), tolerance, 0.0};
+  const double limit = limit_of(estimate(state, walls, effort));
+  const bool changed = std::abs(limit - memory_.limit) > watchful_change * memory_.limit;
+  memory_.estimate_interval =
+      std::clamp(changed ? memory_.estimate_interval / 2 : memory_.estimate_interval * 2, shortest_interval,
+                 longest_interval);
+  memory_.limit = limit;
+  memory_.estimated_at = step;
+  memory_.growth = 1.0;
+  stiffening_->remember(forces.deformation_gradient());
+}
+
+bool StepControl::watch_due(std::int64_t step, const Forces& forces) const {
+  return step >= memory_.watched_at + memory_.watch_interval ||
+         forces.sums().smallest_J < (1.0 - watchful_compression) * memory_.smallest_J;
+}
+
+void StepControl::watch(std::int64_t step, const Forces& forces) {
+  const double before = memory_.growth;
+  memory_.growth = stiffening_->growth(forces.deformation_gradient());
+  memory_.smallest_J = forces.sums().smallest_J;
+  const bool changed = std::abs(memory_.growth - before) > watchful_growth;
+  memory_.watch_interval =
+      std::clamp(changed ? memory_.watch_interval / 2 : memory_.watch_interval * 2, shortest_watch, longest_watch);
+  memory_.watched_at = step;
+}
+
+void StepControl::adapt(std::int64_t step, double time, const State& state, std::span<const Vec3> walls,
+                        const Forces& forces) {
+  if (!stiffening_) return;
+  const Stopwatch stopwatch(seconds_);
+  // The first estimate, when there was one, knew the deformation at the start.
+  if (step == 0 && evaluations() > 0) stiffening_->remember(forces.deformation_gradient());
+  if (step == 0 || watch_due(step, forces)) watch(step, forces);
+  const double rest = spec_.end - time;
+  if (estimate_due(step)) {
+    estimate_again(step, state, walls, forces);
+    memory_.dt = divide_evenly(rest, automatic_step());
+  } else if (automatic_step() < worthwhile_step * memory_.dt) {
+    memory_.dt = divide_evenly(rest, automatic_step());
   }
+}
+
+double StepControl::next(double time) const {
   const double rest = spec_.end - time;
   return rest < memory_.dt * (1.0 + last_step_stretch) ? rest : memory_.dt;
 }
 
-void StepControl::restore(const Memory& memory, Field<Double4> start_vector) {
-  memory_ = memory;
-  limit_ = memory.limit;
-  estimator_.vector() = std::move(start_vector);
+StepControl::Keepsake StepControl::keepsake() const {
+  return {memory_, estimator_.memory(), stiffening_ ? stiffening_->moduli() : std::vector<double>()};
+}
+
+void StepControl::restore(Keepsake keepsake) {
+  memory_ = keepsake.memory;
+  estimator_.restore(std::move(keepsake.estimator));
+  if (stiffening_) stiffening_->restore(std::move(keepsake.moduli));
 }
 
 }  // namespace tessera

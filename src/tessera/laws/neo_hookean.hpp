@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "tessera/base/mat3.hpp"
@@ -43,6 +44,19 @@ struct NeoHookean {
 
   /// Plane-wave modulus lambda + 2 mu [Pa]; rho c_p^2 in [D 55].
   constexpr double plane_wave_modulus() const { return lambda + 2.0 * mu; }
+
+  /// Bound of rho c^2 over all plane waves about the deformation F, directions and rho of the reference state [Pa]:
+  /// a wave a (x) N has mu + (lambda + mu - lambda ln J) (a . F^-T N)^2 with unit vectors a and N. Exact at rest and
+  /// under uniaxial strain. Needs det F > 0.
+  double wave_modulus(const Mat3& F) const {
+    const double J = determinant(F);
+    const Mat3 A = (1.0 / (J * J)) * (cofactor(F) * transpose(cofactor(F)));
+    const double mean = trace(A) / 3.0;
+    const Mat3 deviator = A - mean * identity();
+    // The largest eigenvalue is at most the mean and 2/sqrt(6) of the deviator's size.
+    const double largest = mean + std::sqrt(contract(deviator, deviator) * (2.0 / 3.0));
+    return mu + std::max(lambda + mu - lambda * std::log(J), 0.0) * largest;
+  }
 };
 
 }  // namespace tessera

@@ -57,9 +57,10 @@ Findings examine(const Case& c) {
   // The control of a copy that is never refused: check also tells the limit to those whose fixed step is too long.
   TimeSpec spec = c.time;
   if (auto* fixed = std::get_if<FixedStep>(&spec.step)) fixed->force = true;
-  StepControl control(spec, model.system, reference_state(model.system), model.loads.motion.positions());
-  f.dt = control.memory().dt;
-  f.limit = control.limit();
+  const State state = reference_state(model.system);
+  const auto walls = model.loads.motion.positions();
+  f.dt = StepControl(spec, model.system, state, walls).memory().dt;
+  f.limit = stable_step(model.system, SpectralEstimator(model.system).largest_frequency(state, walls, f.shortest));
   f.steps = c.time.end > 0.0 ? std::ceil(c.time.end / f.dt) : 0.0;
   f.run_seconds = f.steps * seconds_per_step(model);
   f.memory = peak_memory_bytes();

@@ -67,7 +67,8 @@ void Engine::evaluate(double dt) {
 void Engine::prepare() {
   const double before = dt_.after;
   if (!finished()) {
-    dt_ = {before, control_.next(step_, time_, state_, walls_)};
+    control_.adapt(step_, time_, state_, walls_, forces_);
+    dt_ = {before, control_.next(time_)};
     if (!started_) dt_.before = dt_.after;
     model_.loads.motion.move_to(time_ + dt_.after);
     if (!started_) leapfrog_.start(state_, forces_, dt_.after);

@@ -31,7 +31,7 @@ class Engine {
   double time() const { return time_; }         // [s]
   std::int64_t steps() const { return step_; }  // done
   double dt() const { return dt_.after; }       // of the step to come (or of the last one at the end) [s]
-  double step_limit() const { return control_.limit(); }
+  const StepControl& step_control() const { return control_; }
 
   // Observations; prepare() was called for this time.
   EnergyLedger energies() const;

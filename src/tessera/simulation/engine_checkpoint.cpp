@@ -60,24 +60,29 @@ Field<Columns> tensors(const std::vector<double>& values) {
 
 Checkpoint Engine::checkpoint() const {
   const auto n = static_cast<std::size_t>(model_.system.particles());
-  const StepControl::Memory& step = control_.memory();
+  const StepControl::Keepsake control = control_.keepsake();
+  const StepControl::Memory& step = control.memory;
   const Ledger::Books books = ledger_.books();
   Checkpoint c;
   c.arrays["reference"] = flat(model_.system.d.X);
   c.arrays["position"] = flat(state_.x.data(), n);
   c.arrays["velocity"] = flat(state_.v.data(), n);
   c.arrays["initial_position"] = flat(x0_.data(), x0_.size());
-  c.arrays["time"] = {time_, dt_.before, dt_.after, step.dt, step.limit, model_.loads.motion.time()};
+  c.arrays["time"] = {time_, dt_.before, dt_.after, model_.loads.motion.time()};
+  c.arrays["step_control"] = {step.dt, step.limit, step.growth, step.smallest_J};
   c.arrays["energy"] = {books.accounts[0], books.accounts[1], books.accounts[2], initial_energy_, energy_scale_};
   c.arrays["initial_momentum"] = flat({initial_momentum_.linear, initial_momentum_.angular});
   c.arrays["integrated_motion"] = flat(model_.loads.motion.integrated());
-  c.arrays["spectral_vector"] = flat(control_.start_vector().data(), control_.start_vector().size());
+  c.arrays["spectral_vector"] = flat(control.estimator.vector.data(), control.estimator.vector.size());
+  c.arrays["watched_moduli"] = control.moduli;
   for (std::size_t i = 0; i < books.last.size(); ++i) {
     c.arrays[fmt::format("last_force_{}", i)] = flat(books.last[i].force);
     c.arrays[fmt::format("last_place_{}", i)] = flat(books.last[i].place);
   }
   c.arrays["previous_deformation"] = flat(forces_.previous_deformation());
-  c.integers["step"] = {step_, step.estimated_at, step.interval, started_ ? 1 : 0};
+  c.integers["step"] = {step_, started_ ? 1 : 0};
+  c.integers["step_control"] = {step.estimated_at, step.estimate_interval, step.watched_at, step.watch_interval,
+                                control.estimator.evaluations};
   return c;
 }
 
@@ -91,9 +96,9 @@ void Engine::check_same_model(const Checkpoint& c) const {
 void Engine::restore(const Checkpoint& c) {
   check_same_model(c);
   const auto n = static_cast<std::size_t>(model_.system.particles());
-  const std::vector<double>& time = c.array("time", 6);
+  const std::vector<double>& time = c.array("time", 4);
   const std::vector<double>& energy = c.array("energy", 5);
-  const std::vector<std::int64_t>& step = c.integer("step", 4);
+  const std::vector<std::int64_t>& step = c.integer("step", 2);
   const Field<Double4> x = vectors(c.array("position", 3 * n));
   std::copy(x.begin(), x.end(), state_.x.begin());
   state_.v = vectors(c.array("velocity", 3 * n));
@@ -101,14 +106,18 @@ void Engine::restore(const Checkpoint& c) {
   time_ = time[0];
   dt_ = {time[1], time[2]};
   step_ = step[0];
-  started_ = step[3] != 0;
-  control_.restore({time[3], time[4], step[1], step[2]}, vectors(c.array("spectral_vector")));
+  started_ = step[1] != 0;
+  const std::vector<double>& limits = c.array("step_control", 4);
+  const std::vector<std::int64_t>& intervals = c.integer("step_control", 5);
+  control_.restore({{limits[0], limits[1], limits[2], limits[3], intervals[0], intervals[1], intervals[2], intervals[3]},
+                    {vectors(c.array("spectral_vector")), intervals[4]},
+                    c.array("watched_moduli")});
   initial_energy_ = energy[3];
   energy_scale_ = energy[4];
   const std::vector<Vec3> momentum = positions(c.array("initial_momentum", 6));
   initial_momentum_ = {momentum[0], momentum[1]};
 
-  model_.loads.motion.restore(time[5],
+  model_.loads.motion.restore(time[3],
                               positions(c.array("integrated_motion", 3 * model_.loads.motion.integrated().size())));
 
   // The viscous stress takes its rate from the deformation one step ago.

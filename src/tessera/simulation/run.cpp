@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 
+#include "tessera/base/stopwatch.hpp"
 #include "tessera/base/version.hpp"
 #include "tessera/output/progress.hpp"
 #include "tessera/output/result_folder.hpp"
@@ -21,19 +22,6 @@ namespace {
 
 // Steps between looks at the energy, and between copies of the state to fall back to.
 constexpr std::int64_t energy_interval = 20, backup_interval = 200;
-
-/// Adds the wall-clock time of its life to an account [s].
-class Stopwatch {
- public:
-  explicit Stopwatch(double& account) : account_(account) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() { account_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  double& account_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Says when a checkpoint is due, by simulated and by wall-clock time.
 class CheckpointTimer {

@@ -24,7 +24,7 @@ std::vector<double> steps_of(const TimeSpec& spec) {
   StepControl control(spec, system, state, {});
   std::vector<double> steps;
   for (double time = 0.0; time < spec.end;) {
-    const double dt = control.next(static_cast<std::int64_t>(steps.size()), time, state, {});
+    const double dt = control.next(time);
     time = dt >= spec.end - time ? spec.end : time + dt;
     steps.push_back(dt);
   }
