@@ -4,8 +4,8 @@
 
 namespace tessera {
 
-Leapfrog::Leapfrog(const System& system, const Loads& loads, double damping)
-    : system_(system), loads_(loads), damping_(damping) {
+Leapfrog::Leapfrog(const System& system, const Loads& loads, double damping, std::span<const double> mass)
+    : system_(system), loads_(loads), damping_(damping), mass_(mass) {
   const auto& constraints = system.d.constraints;
   if (constraints.empty()) return;
   constraint_of_.assign(system.d.X.size(), -1);
@@ -18,7 +18,7 @@ Leapfrog::Leapfrog(const System& system, const Loads& loads, double damping)
 Double4 Leapfrog::free_kick(const State& state, const Forces& forces, double h, Index a) const {
   const auto k = static_cast<std::size_t>(a);
   const double drag = 0.5 * damping_ * h;
-  return ((1.0 - drag) * state.v[k] + (h / system_.mass[k]) * forces.total()[k]) * (1.0 / (1.0 + drag));
+  return ((1.0 - drag) * state.v[k] + (h / mass_[k]) * forces.total()[k]) * (1.0 / (1.0 + drag));
 }
 
 Vec3 Leapfrog::constrained_velocity(const State& state, std::size_t i, double dt, const Vec3& free) const {
@@ -31,7 +31,7 @@ Vec3 Leapfrog::constrained_velocity(const State& state, std::size_t i, double dt
 void Leapfrog::start(State& state, const Forces& forces, double dt) const {
   parallel::for_each(system_.particles(), [&](std::int64_t a) {
     const auto k = static_cast<std::size_t>(a);
-    const Double4 acceleration = (1.0 / system_.mass[k]) * forces.total()[k] - damping_ * state.v[k];
+    const Double4 acceleration = (1.0 / mass_[k]) * forces.total()[k] - damping_ * state.v[k];
     state.v[k] -= (0.5 * dt) * acceleration;
   });
   for (std::size_t i = 0; i < system_.d.constraints.size(); ++i) {
@@ -52,7 +52,7 @@ void Leapfrog::prepare(const State& state, const Forces& forces, StepPair dt) {
     }
     next_velocity_[i] = constrained_velocity(state, i, dt.after, to_vec3(free_kick(state, forces, h, c.particle)));
     const Vec3 v_minus = to_vec3(state.v[k]), change = next_velocity_[i] - v_minus;
-    const Vec3 needed = system_.mass[k] * ((1.0 / h) * change + (0.5 * damping_) * (v_minus + next_velocity_[i]));
+    const Vec3 needed = mass_[k] * ((1.0 / h) * change + (0.5 * damping_) * (v_minus + next_velocity_[i]));
     reactions_[i] = c.D * (to_vec3(forces.total()[k]) - needed);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tessera/loads/loads.hpp"
@@ -23,7 +24,9 @@ struct StepPair {
 /// Constrained particles (delaunay) take the velocity that brings them to their prescribed place.
 class Leapfrog {
  public:
-  Leapfrog(const System& system, const Loads& loads, double damping);
+  /// `mass` is what moves with each particle [kg]; without it the particles' own.
+  Leapfrog(const System& system, const Loads& loads, double damping, std::span<const double> mass);
+  Leapfrog(const System& system, const Loads& loads, double damping) : Leapfrog(system, loads, damping, system.mass) {}
 
   /// Turns velocities at the start into those half a step before. Call after the first evaluation of the forces, with
   /// the loads' motion at the end of the first step. Constrained components start with their prescribed velocity.
@@ -42,6 +45,7 @@ class Leapfrog {
   /// Force of each constrained particle on what prescribes its motion [N], in the order of Discretization::constraints.
   const std::vector<Vec3>& reactions() const { return reactions_; }
   double damping() const { return damping_; }
+  double mass(Index a) const { return mass_[static_cast<std::size_t>(a)]; }  // [kg]
 
  private:
   Double4 free_kick(const State& state, const Forces& forces, double h, Index a) const;
@@ -50,6 +54,7 @@ class Leapfrog {
   const System& system_;
   const Loads& loads_;
   double damping_;
+  std::span<const double> mass_;
   std::vector<Index> constraint_of_;  // of each particle, or -1; empty without constraints
   std::vector<Vec3> next_velocity_;   // v+ of each constrained particle
   std::vector<Vec3> reactions_;

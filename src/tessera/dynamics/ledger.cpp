@@ -38,7 +38,7 @@ void Ledger::record(const State& state, const Forces& forces, const Leapfrog& le
   remember(state, forces, leapfrog, walls, before);
   if (leapfrog.damping() > 0.0) {
     const double power =
-        2.0 * leapfrog.damping() * total_motion(system_, state, forces, leapfrog, dt, 0, system_.particles()).kinetic;
+        2.0 * leapfrog.damping() * total_motion(state, forces, leapfrog, dt, 0, system_.particles()).kinetic;
     dissipated_ += 0.5 * before * (damping_power_ + power);
     damping_power_ = power;
   }
@@ -60,13 +60,13 @@ Motion& Motion::operator+=(const Motion& o) {
   return *this;
 }
 
-Motion total_motion(const System& system, const State& state, const Forces& forces, const Leapfrog& leapfrog,
-                    StepPair dt, Index first, Index last) {
+Motion total_motion(const State& state, const Forces& forces, const Leapfrog& leapfrog, StepPair dt, Index first,
+                    Index last) {
   return parallel::sum_ranges<Motion>(first, last, [&](std::int64_t begin, std::int64_t end) {
     Motion sum;
     for (auto a = static_cast<Index>(begin); a < end; ++a) {
       const Vec3 v = leapfrog.velocity(state, forces, dt, a);
-      const Vec3 momentum = system.mass[static_cast<std::size_t>(a)] * v;
+      const Vec3 momentum = leapfrog.mass(a) * v;
       sum += {0.5 * dot(momentum, v), momentum, cross(to_vec3(state.x[static_cast<std::size_t>(a)]), momentum)};
     }
     return sum;

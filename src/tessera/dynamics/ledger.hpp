@@ -57,9 +57,9 @@ struct Motion {
   Motion& operator+=(const Motion& o);
 };
 
-/// Sums over all particles, or over [first, last).
-Motion total_motion(const System& system, const State& state, const Forces& forces, const Leapfrog& leapfrog,
-                    StepPair dt, Index first, Index last);
+/// Sums over the particles [first, last), with the masses of the leapfrog.
+Motion total_motion(const State& state, const Forces& forces, const Leapfrog& leapfrog, StepPair dt, Index first,
+                    Index last);
 
 /// Work of gravity since the reference positions `x0` [J].
 double gravity_work(const System& system, const State& state, const Field<Double4>& x0, const Vec3& gravity);

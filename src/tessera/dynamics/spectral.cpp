@@ -19,25 +19,6 @@ constexpr double share_of_chance = 0.5;
 // For forces without a potential the residual bounds nothing; this covers what the iteration has left.
 constexpr double general_margin = 1.05;
 
-/// splitmix64
-std::uint64_t scrambled(std::uint64_t i) {
-  i += 0x9E3779B97F4A7C15ULL;
-  i = (i ^ (i >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  i = (i ^ (i >> 27U)) * 0x94D049BB133111EBULL;
-  return i ^ (i >> 31U);
-}
-
-/// A reproducible vector without structure: every mode takes part.
-Vectors rough_vector(std::size_t n, std::uint64_t seed) {
-  Vectors v(n);
-  parallel::for_each(static_cast<std::int64_t>(n), [&](std::int64_t i) {
-    const auto a = static_cast<std::size_t>(i);
-    for (std::size_t k = 0; k < 3; ++k)
-      v[a][k] = static_cast<double>(scrambled(scrambled(seed) + 3 * a + k) >> 11U) * 0x1p-53 - 0.5;
-  });
-  return v;
-}
-
 /// Says when a bound is good enough.
 class Judge {
  public:
@@ -78,9 +59,8 @@ Vectors SpectralEstimator::start_vector(const LinearisedForces& K) const {
   K.hold(v);
   const Vectors& last = memory_.vector;
   if (const double l = length(v); l > 0.0) scale(v, (last.empty() ? 1.0 : share_of_chance) / l);
-  parallel::for_each(static_cast<std::int64_t>(last.size()), [&](std::int64_t i) {
-    v[static_cast<std::size_t>(i)] += last[static_cast<std::size_t>(i)];
-  });
+  parallel::for_each(static_cast<std::int64_t>(last.size()),
+                     [&](std::int64_t i) { v[static_cast<std::size_t>(i)] += last[static_cast<std::size_t>(i)]; });
   if (const double l = length(v); l > 0.0) scale(v, 1.0 / l);
   return v;
 }

@@ -41,8 +41,8 @@ class SpectralEstimator {
   const Memory& memory() const { return memory_; }
   void restore(Memory memory) { memory_ = std::move(memory); }
 
-  /// Fewest evaluations with which a bound is worth anything.
-  static constexpr int fewest_evaluations = 5;
+  /// Fewest evaluations of an estimate, whatever the effort: with fewer the bound may lie some per cent too low.
+  static constexpr int fewest_evaluations = 6;
 
  private:
   Vectors start_vector(const class LinearisedForces& K) const;

@@ -12,16 +12,11 @@ namespace {
 template <class Body>
 void for_each_law(const System& s, Body&& body) {
   for (const MaterialRange& r : s.ranges)
-    std::visit([&](const auto& law) { body(law, r.begin, r.end); }, s.materials[static_cast<std::size_t>(r.material)].law);
+    std::visit([&](const auto& law) { body(law, r.begin, r.end); },
+               s.materials[static_cast<std::size_t>(r.material)].law);
 }
 
 }  // namespace
-
-Stiffening::Stiffening(const System& system) : system_(system), moduli_(system.mass.size()) {
-  for_each_law(system, [&](const auto& law, Index begin, Index end) {
-    for (Index a = begin; a < end; ++a) moduli_[static_cast<std::size_t>(a)] = law.plane_wave_modulus();
-  });
-}
 
 void Stiffening::remember(const Field<Columns>& F) {
   for_each_law(system_, [&](const auto& law, Index begin, Index end) {

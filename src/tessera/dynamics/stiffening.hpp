@@ -12,8 +12,8 @@ namespace tessera {
 /// the forces, only their deformation gradients.
 class Stiffening {
  public:
-  /// Remembers the reference state.
-  explicit Stiffening(const System& system);
+  /// Remembers nothing yet.
+  explicit Stiffening(const System& system) : system_(system), moduli_(system.mass.size()) {}
 
   void remember(const Field<Columns>& F);
   /// Largest ratio of the moduli about F to those remembered.

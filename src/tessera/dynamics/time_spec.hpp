@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "tessera/base/error.hpp"
@@ -18,13 +19,20 @@ struct FixedStep {
   bool force = false;
 };
 
+/// Makes particles heavier that would ask for a shorter step.
+struct MassScalingSpec {
+  double step = 0.0;  // that is wanted [s]
+  Origin origin;
+};
+
 /// The [time] table.
 struct TimeSpec {
   double end = 0.0;  // [s]; 0 evaluates the forces of the initial state once
   std::variant<AutoStep, AutoSpectralStep, FixedStep> step;
   double safety = 0.3;
-  double damping = 0.0;  // mass-proportional [1/s]
-  Origin origin;         // of the step key (or of the table)
+  double damping = 0.0;                         // mass-proportional [1/s]
+  std::optional<MassScalingSpec> mass_scaling;  // auto-spectral only
+  Origin origin;                                // of the step key (or of the table)
 };
 
 }  // namespace tessera

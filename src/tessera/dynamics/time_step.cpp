@@ -7,17 +7,15 @@
 #include <limits>
 
 #include "tessera/base/stopwatch.hpp"
-#include "tessera/dynamics/local_stiffness.hpp"
 
 namespace tessera {
 
 namespace {
 
 // Evaluations of the forces that choosing the step may take: at the start a share of the steps that the run will have,
-// later a share of the steps done. Together two in a hundred.
-constexpr double starting_share = 0.015, running_share = 0.005;
-// The bound without evaluations makes the steps up to this many times shorter than they need be.
-constexpr double looseness_of_bound = 2.0;
+// later a share of the steps done. Together 1.2 in a hundred; with what surrounds them (vectors, small eigenvalue
+// problems, looks at the deformation) it is two in a hundred in wall-clock time.
+constexpr double starting_share = 0.009, running_share = 0.003;
 // An estimate in the course of a run starts from the last vector and rarely takes more evaluations than this; it is
 // not worth starting with fewer.
 constexpr int evaluations_again = 10, most_evaluations = 32;
@@ -29,10 +27,11 @@ constexpr std::int64_t first_interval = 500, shortest_interval = 50, longest_int
 constexpr double watchful_change = 0.02;
 // Stiffening since the last estimate (of moduli: twice that of frequencies) that calls for a new one.
 constexpr double noticeable_growth = 1.05;
-// Steps between two looks at the deformation, which cost about a fifth of an evaluation, and the change of the
-// smallest J, known at every step, that does not wait for the next look.
-constexpr std::int64_t shortest_watch = 5, longest_watch = 50;
-constexpr double watchful_growth = 0.01, watchful_compression = 0.01;
+// Steps between two looks at the deformation, which cost about a fifth of an evaluation: fewer when the growth since
+// the last look was more than this, more when it was less than half. A change of the smallest J, known at every step,
+// does not wait for the next look.
+constexpr std::int64_t first_watch = 10, shortest_watch = 5, longest_watch = 200;
+constexpr double watchful_growth = 0.05, watchful_compression = 0.02;
 // Shorter steps than this share of the present one are worth a change.
 constexpr double worthwhile_step = 0.99;
 // The step by bonds stays below this share of the spectral limit.
@@ -54,8 +53,9 @@ double viscous_time(const System& s) {
   if (!s.viscosity.empty())
     for (const MaterialRange& r : s.ranges)
       tau = std::max(tau, largest_of(r.end - r.begin, [&](std::int64_t i) {
-        return s.viscosity[static_cast<std::size_t>(r.begin + i)].linear / material(s, r).plane_wave_modulus();
-      }));
+                       return s.viscosity[static_cast<std::size_t>(r.begin + i)].linear /
+                              material(s, r).plane_wave_modulus();
+                     }));
   return tau;
 }
 
@@ -75,7 +75,9 @@ double stable_step(const System& s, double omega) {
   return 2.0 / omega * (std::sqrt(1.0 + z * z) - z);
 }
 
-double frequency_of_step(const System& s, double dt) { return 1.0 / std::sqrt(0.5 * dt * (0.5 * dt + viscous_time(s))); }
+double frequency_of_step(const System& s, double dt) {
+  return 1.0 / std::sqrt(0.5 * dt * (0.5 * dt + viscous_time(s)));
+}
 
 StepControl::StepControl(const TimeSpec& spec, const System& system, const State& state, std::span<const Vec3> walls,
                          std::span<const double> mass)
@@ -92,7 +94,7 @@ double StepControl::limit_of(double omega) const {
 }
 
 double StepControl::estimate(const State& state, std::span<const Vec3> walls, const Effort& effort) {
-  return estimator_.largest_frequency(state, walls, shortest_length(system_.d), effort);
+  return estimator_.largest_frequency(state, walls, system_.shortest_length, effort);
 }
 
 void StepControl::start_fixed(const FixedStep& fixed, const State& state, std::span<const Vec3> walls) {
@@ -121,14 +123,10 @@ void StepControl::start_spectral(const State& state, std::span<const Vec3> walls
   if (spec_.end == 0.0) return;
   stiffening_.emplace(system_);
   memory_.estimate_interval = first_interval;
-  memory_.watch_interval = shortest_watch;
-  double omega = std::numeric_limits<double>::infinity();
-  if (has_potential(system_.d)) omega = frequency_bound(local_stiffness(system_), mass_);
-  memory_.limit = limit_of(omega);
-  Effort effort{most_evaluations, tolerance, 0.0, 0.5 * starting_share * spec_.end / spec_.safety};
-  // A short run is done before an estimate pays.
-  if (effort.evaluations_per_frequency * omega >= looseness_of_bound * SpectralEstimator::fewest_evaluations)
-    memory_.limit = limit_of(std::min(omega, estimate(state, walls, effort)));
+  memory_.watch_interval = first_watch;
+  // A run has end omega / (2 safety) steps.
+  const Effort effort{most_evaluations, tolerance, 0.0, 0.5 * starting_share * spec_.end / spec_.safety};
+  memory_.limit = limit_of(estimate(state, walls, effort));
   memory_.dt = divide_evenly(spec_.end, automatic_step());
 }
 
@@ -156,9 +154,8 @@ void StepControl::estimate_again(std::int64_t step, const State& state, std::spa
   const Effort effort{std::min(left, most_evaluations), tolerance, 0.0};
   const double limit = limit_of(estimate(state, walls, effort));
   const bool changed = std::abs(limit - memory_.limit) > watchful_change * memory_.limit;
-  memory_.estimate_interval =
-      std::clamp(changed ? memory_.estimate_interval / 2 : memory_.estimate_interval * 2, shortest_interval,
-                 longest_interval);
+  memory_.estimate_interval = std::clamp(changed ? memory_.estimate_interval / 2 : memory_.estimate_interval * 2,
+                                         shortest_interval, longest_interval);
   memory_.limit = limit;
   memory_.estimated_at = step;
   memory_.growth = 1.0;
@@ -174,9 +171,9 @@ void StepControl::watch(std::int64_t step, const Forces& forces) {
   const double before = memory_.growth;
   memory_.growth = stiffening_->growth(forces.deformation_gradient());
   memory_.smallest_J = forces.sums().smallest_J;
-  const bool changed = std::abs(memory_.growth - before) > watchful_growth;
-  memory_.watch_interval =
-      std::clamp(changed ? memory_.watch_interval / 2 : memory_.watch_interval * 2, shortest_watch, longest_watch);
+  const double change = std::abs(memory_.growth - before);
+  if (change > watchful_growth) memory_.watch_interval = std::max(memory_.watch_interval / 2, shortest_watch);
+  if (change < 0.5 * watchful_growth) memory_.watch_interval = std::min(memory_.watch_interval * 2, longest_watch);
   memory_.watched_at = step;
 }
 
@@ -184,8 +181,7 @@ void StepControl::adapt(std::int64_t step, double time, const State& state, std:
                         const Forces& forces) {
   if (!stiffening_) return;
   const Stopwatch stopwatch(seconds_);
-  // The first estimate, when there was one, knew the deformation at the start.
-  if (step == 0 && evaluations() > 0) stiffening_->remember(forces.deformation_gradient());
+  if (step == 0) stiffening_->remember(forces.deformation_gradient());  // the first estimate belongs to it
   if (step == 0 || watch_due(step, forces)) watch(step, forces);
   const double rest = spec_.end - time;
   if (estimate_due(step)) {

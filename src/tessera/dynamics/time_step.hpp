@@ -36,7 +36,8 @@ class StepControl {
   /// The step to take from `time` on [s]; never beyond the end.
   double next(double time) const;
 
-  /// A lower bound of the spectral limit [s], only as sharp as the step needs it; zero when nothing is to be integrated.
+  /// A lower bound of the spectral limit [s], only as sharp as the step needs it; zero when nothing is to be
+  /// integrated.
   double limit() const { return memory_.limit; }
   /// What choosing the steps has cost so far: evaluations of the forces and wall-clock time [s].
   std::int64_t evaluations() const { return estimator_.memory().evaluations; }
@@ -44,8 +45,8 @@ class StepControl {
 
   /// What a resumed run must put back.
   struct Memory {
-    double dt = 0.0, limit = 0.0;             // limit: of the last estimate [s]
-    double growth = 1.0, smallest_J = 1.0;    // when the deformation was last looked at
+    double dt = 0.0, limit = 0.0;           // limit: of the last estimate [s]
+    double growth = 1.0, smallest_J = 1.0;  // when the deformation was last looked at
     std::int64_t estimated_at = 0, estimate_interval = 0, watched_at = 0, watch_interval = 0;  // steps
   };
   struct Keepsake {

@@ -48,6 +48,7 @@ TimeSpec build_time(const Reader& t) {
     time.step = AutoSpectralStep{};
   }
   time.safety = t.optional_number("safety").value_or(time.safety);
+  if (const auto step = t.optional_number("mass_scaling")) time.mass_scaling = {*step, t.origin_of("mass_scaling")};
   time.damping = t.number("damping");
   time.origin = t.origin_of("step");
   return time;

@@ -29,7 +29,11 @@ std::string heading(const Parameter& p) {
 
 std::string basic_presence(const Parameter& p) {
   if (p.presence == Presence::required) return "required";
-  return p.standard.empty() ? "optional" : fmt::format("default {}", p.standard);
+  if (p.standard.empty()) return "optional";
+  std::string text = fmt::format("default {}", p.standard);
+  for (const auto& [condition, standard] : p.standard_beside)
+    text += fmt::format(" ({} with {})", standard, input::condition_text(condition));
+  return text;
 }
 
 std::string presence_text(const Parameter& p) {

@@ -90,7 +90,7 @@ class Normalizer {
     }
     if (given != nullptr) {
       result.push_back({key, given->origin, convert_any(p, *given, full)});
-    } else if (auto standard = default_of(p, origin, full)) {
+    } else if (auto standard = default_of(p, entries, result, origin, full)) {
       result.push_back({key, origin, convert_any(p, *standard, full)});
     }
   }
@@ -98,13 +98,22 @@ class Normalizer {
   // Conditions look at siblings that come earlier in the table (with their defaults) or that were given.
   static bool has_effect(const Parameter& p, const Table& entries, const Table& result) {
     return p.only_with.empty() ||
-           std::any_of(p.only_with.begin(), p.only_with.end(), [&](const std::string& condition) {
-             const auto equals = condition.find('=');
-             if (equals == std::string::npos) return find(entries, condition) != nullptr;
-             const Value* sibling = find(result, condition.substr(0, equals));
-             const auto* text = sibling != nullptr ? sibling->get_if<std::string>() : nullptr;
-             return text != nullptr && *text == condition.substr(equals + 1);
-           });
+           std::any_of(p.only_with.begin(), p.only_with.end(),
+                       [&](const std::string& condition) { return holds(condition, entries, result); });
+  }
+
+  static bool holds(const std::string& condition, const Table& entries, const Table& result) {
+    const auto equals = condition.find('=');
+    if (equals == std::string::npos) return find(entries, condition) != nullptr;
+    const Value* sibling = find(result, condition.substr(0, equals));
+    const auto* text = sibling != nullptr ? sibling->get_if<std::string>() : nullptr;
+    return text != nullptr && *text == condition.substr(equals + 1);
+  }
+
+  static const std::string& standard_of(const Parameter& p, const Table& entries, const Table& result) {
+    for (const auto& [condition, standard] : p.standard_beside)
+      if (holds(condition, entries, result)) return standard;
+    return p.standard;
   }
 
   void report_misplaced(const Parameter& p, const Value& given, const std::string& full) {
@@ -115,9 +124,10 @@ class Normalizer {
     unused_.push_back(tessera::describe(origin) + what);
   }
 
-  std::optional<Value> default_of(const Parameter& p, const Origin& origin, const std::string& full) const {
+  std::optional<Value> default_of(const Parameter& p, const Table& entries, const Table& result, const Origin& origin,
+                                  const std::string& full) const {
     if (p.presence == Presence::defaulted && p.kind == Kind::table) return Value{Table{}, origin};
-    if (p.presence == Presence::defaulted) return parse_standard(p.standard, origin, full);
+    if (p.presence == Presence::defaulted) return parse_standard(standard_of(p, entries, result), origin, full);
     if (p.presence == Presence::optional) return std::nullopt;
     if (setting_.dimension == 2 && p.kind == Kind::number && !p.flat.empty())
       return parse_standard(p.flat, origin, full);

@@ -103,13 +103,15 @@ std::string expectation(const Parameter& parameter) {
   return kind_text(parameter) + (range.empty() ? "" : "; allowed: " + range);
 }
 
+std::string condition_text(const std::string& condition) {
+  const auto equals = condition.find('=');
+  if (equals == std::string::npos) return condition;
+  return fmt::format("{} = {}", condition.substr(0, equals), quoted(condition.substr(equals + 1)));
+}
+
 std::string conditions_text(const Parameter& parameter) {
   std::vector<std::string> conditions;
-  for (const std::string& c : parameter.only_with) {
-    const auto equals = c.find('=');
-    conditions.push_back(
-        equals == std::string::npos ? c : fmt::format("{} = {}", c.substr(0, equals), quoted(c.substr(equals + 1))));
-  }
+  for (const std::string& c : parameter.only_with) conditions.push_back(condition_text(c));
   return list_of(conditions);
 }
 

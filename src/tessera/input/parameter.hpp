@@ -3,6 +3,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tessera/base/units.hpp"
@@ -62,7 +63,9 @@ struct Parameter {
   Dimension dimension = {};
   Range range = {};
   std::vector<std::string> choices = {};
-  std::string standard = {};                // the default, as TOML
+  std::string standard = {};  // the default, as TOML
+  // Conditions as in only_with, and the default beside each of them.
+  std::vector<std::pair<std::string, std::string>> standard_beside = {};
   std::string flat = {};                    // with dimension = 2, as TOML: the third component, or the default
   std::vector<std::string> only_with = {};  // has effect beside one of these: "counts", "type=point"
   Misplaced misplaced = Misplaced::refused;
@@ -84,6 +87,9 @@ std::string last_part(const std::string& key);
 
 /// What a value must be: "a length in m, as in \"10 mm\" or 0.01; allowed: > 0".
 std::string expectation(const Parameter& parameter);
+
+/// "counts", "type = \"point\"".
+std::string condition_text(const std::string& condition);
 
 /// What a key needs beside it to have an effect: "counts or spacing", "type = \"point\""; often empty.
 std::string conditions_text(const Parameter& parameter);

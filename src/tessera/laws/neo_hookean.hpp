@@ -49,12 +49,12 @@ struct NeoHookean {
   /// a wave a (x) N has mu + (lambda + mu - lambda ln J) (a . F^-T N)^2 with unit vectors a and N. Exact at rest and
   /// under uniaxial strain. Needs det F > 0.
   double wave_modulus(const Mat3& F) const {
-    const double J = determinant(F);
-    const Mat3 A = (1.0 / (J * J)) * (cofactor(F) * transpose(cofactor(F)));
-    const double mean = trace(A) / 3.0;
-    const Mat3 deviator = A - mean * identity();
-    // The largest eigenvalue is at most the mean and 2/sqrt(6) of the deviator's size.
-    const double largest = mean + std::sqrt(contract(deviator, deviator) * (2.0 / 3.0));
+    const Mat3 cof = cofactor(F);
+    const double J = F(0, 0) * cof(0, 0) + F(0, 1) * cof(0, 1) + F(0, 2) * cof(0, 2);
+    // First and second invariant of F^-1 F^-T, and a bound of its largest eigenvalue: the root of the characteristic
+    // equation with the cosine in it set to one.
+    const double first = contract(cof, cof) / (J * J), second = contract(F, F) / (J * J);
+    const double largest = (first + 2.0 * std::sqrt(std::max(first * first - 3.0 * second, 0.0))) / 3.0;
     return mu + std::max(lambda + mu - lambda * std::log(J), 0.0) * largest;
   }
 };

@@ -1,5 +1,6 @@
 #include "tessera/output/summary.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
@@ -18,6 +19,15 @@ Json energy(const EnergyLedger& e) {
   return {{"kinetic", e.kinetic},       {"internal", e.internal},
           {"contact", e.contact},       {"external_work", e.external_work},
           {"dissipated", e.dissipated}, {"relative_error", e.relative_error()}};
+}
+
+Json mass_scaling(const MassScalingSummary& m) {
+  return {{"step", m.step},
+          {"added_mass", m.added},
+          {"added_share", m.added_share},
+          {"particles", m.particles},
+          {"most_affected", {{"body", m.body}, {"particle", m.particle}, {"factor", m.largest_factor}}},
+          {"kinetic_share", m.kinetic_share}};
 }
 
 Json errors(const std::map<std::string, DisplacementError>& errors) {
@@ -40,8 +50,10 @@ std::string to_json(const Summary& s) {
   json["steps"] = s.steps;
   json["dt"] = s.dt;
   json["time"] = s.time;
-  json["wall_seconds"] = {
-      {"setup", s.wall_seconds.setup}, {"steps", s.wall_seconds.steps}, {"output", s.wall_seconds.output}};
+  json["wall_seconds"] = {{"setup", s.wall_seconds.setup},
+                          {"steps", s.wall_seconds.steps},
+                          {"time_step", s.wall_seconds.time_step},
+                          {"output", s.wall_seconds.output}};
   json["particle_steps_per_second"] = s.particle_steps_per_second;
   json["peak_memory_bytes"] = s.peak_memory_bytes;
   json["energy"] = energy(s.energy);
@@ -52,9 +64,19 @@ std::string to_json(const Summary& s) {
   json["errors"] = errors(s.errors);
   json["identities"] = Json::object();
   for (const auto& [name, violation] : s.identities) json["identities"][name] = violation;
+  json["step_control"] = {{"evaluations", s.step_control.evaluations}, {"limit", s.step_control.limit}};
+  if (s.mass_scaling) json["mass_scaling"] = mass_scaling(*s.mass_scaling);
   json["max_force_residual"] = s.max_force_residual;
   // Names come from users: bytes that are no UTF-8 are replaced, not refused.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string mass_scaling_text(const MassScalingSummary& m) {
+  return fmt::format(
+      "mass scaling for steps of {:g} s: {:.3g}% of the mass added, to {} particles (particle {} of body \"{}\" is "
+      "{:.3g} "
+      "times as heavy); kinetic energy at most {:.2g}% of the energy after the first tenth of the run",
+      m.step, 100.0 * m.added_share, m.particles, m.particle, m.body, m.largest_factor, 100.0 * m.kinetic_share);
 }
 
 void write_summary(const std::string& path, const Summary& summary) {

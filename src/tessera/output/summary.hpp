@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "tessera/output/displacement_error.hpp"
@@ -13,7 +14,26 @@ namespace tessera {
 struct WallSeconds {
   double setup = 0.0;
   double steps = 0.0;
+  double time_step = 0.0;  // choosing the step, at the start and later; in none of the others
   double output = 0.0;
+};
+
+/// What choosing the step has cost, and what it found.
+struct StepControlSummary {
+  std::int64_t evaluations = 0;  // of the forces
+  double limit = 0.0;            // lower bound of the stable step, of the last estimate [s]
+};
+
+/// What mass scaling has done to a model.
+struct MassScalingSummary {
+  double step = 0.0;           // that was wanted [s]
+  double added = 0.0;          // [kg]
+  double added_share = 0.0;    // of the true mass
+  std::int64_t particles = 0;  // made heavier
+  std::string body;            // of the particle that is most affected
+  std::int64_t particle = 0;   // its number in that body
+  double largest_factor = 1.0;
+  double kinetic_share = 0.0;  // largest share of the kinetic energy after the first tenth of the run
 };
 
 /// The result of a run in numbers: the content of summary.json, key for key.
@@ -36,11 +56,16 @@ struct Summary {
   Momentum momentum_change;                         // since the start
   std::map<std::string, DisplacementError> errors;  // by name of the reference
   std::map<std::string, double> identities;         // largest violation of each, relative
-  double max_force_residual = 0.0;                  // largest |force| on a free particle at the end [N]
+  StepControlSummary step_control;
+  std::optional<MassScalingSummary> mass_scaling;  // the key is left out without it
+  double max_force_residual = 0.0;                 // largest |force| on a free particle at the end [N]
 };
 
 /// The summary as JSON text. Numbers that are not finite become null.
 std::string to_json(const Summary& summary);
+
+/// The same for people, in one line.
+std::string mass_scaling_text(const MassScalingSummary& m);
 
 /// Replaces the file `path` by the summary. Throws RunError when it cannot be written.
 void write_summary(const std::string& path, const Summary& summary);

@@ -8,6 +8,7 @@
 #include "tessera/output/summary.hpp"
 #include "tessera/parallel/parallel.hpp"
 #include "tessera/simulation/engine.hpp"
+#include "tessera/simulation/inertia.hpp"
 #include "tessera/simulation/run.hpp"
 
 namespace tessera {
@@ -59,8 +60,11 @@ Findings examine(const Case& c) {
   if (auto* fixed = std::get_if<FixedStep>(&spec.step)) fixed->force = true;
   const State state = reference_state(model.system);
   const auto walls = model.loads.motion.positions();
-  f.dt = StepControl(spec, model.system, state, walls).memory().dt;
-  f.limit = stable_step(model.system, SpectralEstimator(model.system).largest_frequency(state, walls, f.shortest));
+  const auto scaling = scaled_mass(model, spec, state);
+  const auto mass = inertia(model, scaling);
+  f.dt = StepControl(spec, model.system, state, walls, mass).memory().dt;
+  f.limit =
+      stable_step(model.system, SpectralEstimator(model.system, mass).largest_frequency(state, walls, f.shortest));
   f.steps = c.time.end > 0.0 ? std::ceil(c.time.end / f.dt) : 0.0;
   f.run_seconds = f.steps * seconds_per_step(model);
   f.memory = peak_memory_bytes();

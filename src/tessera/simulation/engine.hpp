@@ -8,6 +8,7 @@
 #include "tessera/dynamics/time_step.hpp"
 #include "tessera/output/checkpoint.hpp"
 #include "tessera/output/snapshot.hpp"
+#include "tessera/simulation/inertia.hpp"
 #include "tessera/simulation/model.hpp"
 
 namespace tessera {
@@ -32,6 +33,10 @@ class Engine {
   std::int64_t steps() const { return step_; }  // done
   double dt() const { return dt_.after; }       // of the step to come (or of the last one at the end) [s]
   const StepControl& step_control() const { return control_; }
+  const std::optional<MassScaling>& mass_scaling() const { return mass_scaling_; }
+  /// Largest share of the kinetic energy in the sum of kinetic, strain and contact energy at the looks at the energy
+  /// after the first tenth of the run: what a quasi-static run keeps small.
+  double largest_kinetic_share() const { return largest_kinetic_share_; }
 
   // Observations; prepare() was called for this time.
   EnergyLedger energies() const;
@@ -68,6 +73,7 @@ class Engine {
   TimeSpec spec_;
   State state_;
   Field<Double4> x0_;  // positions at the start, where the work of gravity begins; empty without it
+  std::optional<MassScaling> mass_scaling_;
   Forces forces_;
   Leapfrog leapfrog_;
   Ledger ledger_;
@@ -80,6 +86,7 @@ class Engine {
   double initial_energy_ = 0.0;
   Momentum initial_momentum_;
   double energy_scale_ = 0.0;
+  double largest_kinetic_share_ = 0.0;
 };
 
 }  // namespace tessera

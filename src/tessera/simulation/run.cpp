@@ -69,11 +69,13 @@ class Run {
   void write_last_state();
   void save_checkpoint();
   void leave_last_good_state();
+  MassScalingSummary mass_scaling_summary() const;
   void summarise(const std::string& status, const std::string& message);
 
   const Case& case_;
   const RunOptions& options_;
   WallSeconds wall_;
+  double seconds_of_first_step_ = 0.0;  // choosing it is part of the set-up's time, and accounted for apart [s]
   std::optional<Model> model_;
   std::optional<Engine> engine_;
   std::optional<Recorder> recorder_;
@@ -90,6 +92,7 @@ Run::Run(const Case& c, const RunOptions& options) : case_(c), options_(options)
   model_.emplace(build_model(c));
   require(model_->identities);
   engine_.emplace(*model_, c.time);
+  seconds_of_first_step_ = engine_->step_control().seconds();
   prepare_result_folder(options.directory, existing_result(options));
   std::optional<ContinueFrom> from;
   if (options.resume) {
@@ -122,6 +125,7 @@ void Run::execute() {
     throw;
   }
   summarise("done", "");
+  if (engine_->mass_scaling() && !options_.quiet) fmt::print(stderr, "{}\n", mass_scaling_text(mass_scaling_summary()));
 }
 
 void Run::write_last_state() {
@@ -182,6 +186,20 @@ void Run::leave_last_good_state() {
   engine_->prepare();
 }
 
+MassScalingSummary Run::mass_scaling_summary() const {
+  const MassScaling& m = *engine_->mass_scaling();
+  const auto a = static_cast<std::size_t>(m.most_affected);
+  const BodyModel& body = model_->bodies[static_cast<std::size_t>(model_->body_of[a])];
+  return {case_.time.mass_scaling->step,
+          m.added,
+          m.added_share,
+          m.particles,
+          body.name,
+          model_->user_number[a] - body.first,
+          m.largest_factor,
+          engine_->largest_kinetic_share()};
+}
+
 void Run::summarise(const std::string& status, const std::string& message) {
   Summary s;
   s.version = version();
@@ -195,6 +213,8 @@ void Run::summarise(const std::string& status, const std::string& message) {
   s.dt = engine_->dt();
   s.time = engine_->time();
   s.wall_seconds = wall_;
+  s.wall_seconds.time_step = engine_->step_control().seconds();
+  s.wall_seconds.setup -= seconds_of_first_step_;
   if (wall_.steps > 0.0)
     s.particle_steps_per_second =
         static_cast<double>(s.particles) * static_cast<double>(s.steps - first_step_) / wall_.steps;
@@ -208,6 +228,8 @@ void Run::summarise(const std::string& status, const std::string& message) {
     for (const ReferenceSpec& r : case_.references) s.errors[r.name] = displacement_error(snapshot, r);
   }
   s.identities = model_->identities;
+  s.step_control = {engine_->step_control().evaluations(), engine_->step_control().limit()};
+  if (engine_->mass_scaling()) s.mass_scaling = mass_scaling_summary();
   s.max_force_residual = engine_->largest_force();
   write_summary(summary_path(options_.directory), s);
 }

@@ -116,8 +116,9 @@ TEST(Case, FillsInDefaults) {
   EXPECT_EQ(c.materials[0].model, "neo-hookean");
   EXPECT_EQ(c.materials[0].contact.normal, 1.0);
   EXPECT_EQ(c.materials[0].viscosity.linear, 0.0);
-  EXPECT_TRUE(std::holds_alternative<AutoStep>(c.time.step));
-  EXPECT_EQ(c.time.safety, 0.3);
+  EXPECT_TRUE(std::holds_alternative<AutoSpectralStep>(c.time.step));
+  EXPECT_EQ(c.time.safety, 0.8);
+  EXPECT_FALSE(c.time.mass_scaling);
   EXPECT_EQ(c.output.fields.format, FieldFormat::vtkhdf);
   EXPECT_EQ(c.output.fields.precision, FieldPrecision::mixed);
   EXPECT_FALSE(c.output.fields.every);
@@ -163,6 +164,18 @@ TEST(Case, TakesAFixedStepAndSimulatedCheckpoints) {
   EXPECT_TRUE(std::get<FixedStep>(c.time.step).force);
   EXPECT_EQ(c.output.checkpoint.every_time, 0.5);
   EXPECT_FALSE(c.output.checkpoint.every_wall);
+}
+
+TEST(Case, TakesTheDefaultThatBelongsToTheStep) {
+  EXPECT_EQ(sample::read(smallest, {"time.step=auto"}).time.safety, 0.3);
+  EXPECT_EQ(sample::read(smallest, {"time.step=auto-spectral"}).time.safety, 0.8);
+  EXPECT_EQ(sample::read(smallest, {"time.step=auto", "time.safety=0.5"}).time.safety, 0.5);
+}
+
+TEST(Case, ScalesMassBesideSpectralStepsOnly) {
+  EXPECT_EQ(sample::read(smallest, {"time.mass_scaling=2 us"}).time.mass_scaling->step, 2e-6);
+  EXPECT_THROW(sample::read(smallest, {"time.mass_scaling=2 us", "time.step=auto"}), InputError);
+  EXPECT_THROW(sample::read(smallest, {"time.mass_scaling=0"}), InputError);
 }
 
 TEST(Case, TellsWhichKeysHaveNoEffect) {
@@ -248,7 +261,7 @@ TEST(EffectiveCase, ReadsBackToTheSameCase) {
 
 TEST(EffectiveCase, ShowsDefaults) {
   const std::string effective = sample::read(smallest).effective;
-  for (const char* part : {"formulation = \"voronoi\"", "boundary = \"consistent\"", "safety = 0.3",
+  for (const char* part : {"formulation = \"voronoi\"", "boundary = \"consistent\"", "safety = 0.8",
                            "contact = { normal = 1, tangential = 1 }", "spacing = 0.1", "seed = 1",
                            "format = \"vtkhdf\"", "acceleration = [0, 0, 0]"})
     EXPECT_NE(effective.find(part), std::string::npos) << part << " is not in\n" << effective;

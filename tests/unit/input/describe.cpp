@@ -44,7 +44,7 @@ TEST(Describe, ShowsUnitRangeAndDefault) {
   EXPECT_EQ(describe_key("material.density"),
             "material.density\n    Density in the reference state.\n"
             "    a density in kg/m3, as in \"1000 kg/m3\" or 1000; allowed: > 0; required\n");
-  EXPECT_TRUE(contains(describe_key("time.safety"), "allowed: > 0 and <= 1; default 0.3"));
+  EXPECT_TRUE(contains(describe_key("time.safety"), "allowed: > 0 and <= 1; default 0.8 (0.3 with step = \"auto\")"));
 }
 
 TEST(Describe, TakesSectionsNumbersAndEndsOfKeys) {

@@ -231,5 +231,25 @@ TEST(Lanes, AgreeWithOneAtATime) {
     }
 }
 
+/// rho c^2 of waves a (x) N by differences of the stress: none is above the bound, and the fastest of a uniaxial strain
+/// reaches it.
+TEST(WaveModulus, IsABoundOfAllPlaneWaves) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto direction = [&] { return normalized({uniform(random), uniform(random), uniform(random)}); };
+  const auto modulus = [](const Law& law, const Mat3& F, const Vec3& a, const Vec3& N) {
+    const double h = 1e-6;
+    const Mat3 H = outer(a, N);
+    return contract(H, stress(law, F + h * H) - stress(law, F - h * H)) / (2.0 * h);
+  };
+  for (const Law& law : all_laws()) {
+    const auto bound = [&](const Mat3& F) { return std::visit([&](const auto& l) { return l.wave_modulus(F); }, law); };
+    for (const Mat3& F : deformations())
+      for (int i = 0; i < 50; ++i) EXPECT_LT(modulus(law, F, direction(), direction()), bound(F) * (1.0 + 1e-6));
+    for (const Mat3& F : {identity(), diagonal(1, 0.5, 1)})
+      EXPECT_NEAR(modulus(law, F, {0, 1, 0}, {0, 1, 0}) / bound(F), 1.0, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace tessera

@@ -18,7 +18,8 @@ Summary example() {
   s.status = "done";
   s.particles = 693;
   s.dt = 1.0 / 3.0;
-  s.wall_seconds = {1.0, 2.0, 3.0};
+  s.wall_seconds = {1.0, 2.0, 0.5, 3.0};
+  s.step_control = {21, 0.25};
   s.energy.kinetic = 2.0;
   s.energy.initial = 1.0;
   s.energy.scale = 4.0;
@@ -34,11 +35,12 @@ TEST(Summary, HoldsEveryKey) {
   const auto json = nlohmann::json::parse(to_json(example()));
   for (const char* key : {"version", "case", "status", "particles", "bonds", "boundary_faces", "steps", "dt", "time",
                           "wall_seconds", "particle_steps_per_second", "peak_memory_bytes", "energy", "momentum",
-                          "errors", "identities", "max_force_residual"})
+                          "errors", "identities", "max_force_residual", "step_control"})
     EXPECT_TRUE(json.contains(key)) << key;
-  EXPECT_EQ(json.size(), 17u);
+  EXPECT_EQ(json.size(), 18u);
   EXPECT_EQ(json["dt"].get<double>(), 1.0 / 3.0);
-  EXPECT_EQ(json["wall_seconds"], (nlohmann::json{{"setup", 1.0}, {"steps", 2.0}, {"output", 3.0}}));
+  EXPECT_EQ(json["wall_seconds"],
+            (nlohmann::json{{"setup", 1.0}, {"steps", 2.0}, {"time_step", 0.5}, {"output", 3.0}}));
   EXPECT_EQ(json["energy"]["relative_error"], 0.25);
   EXPECT_EQ(json["momentum"]["linear"], (nlohmann::json{1.0, 2.0, 3.0}));
   EXPECT_EQ(json["momentum"]["angular_change"][2], 1e-13);
@@ -47,6 +49,20 @@ TEST(Summary, HoldsEveryKey) {
   EXPECT_EQ(json["errors"]["rest"]["displacement_l2_measure"], "absolute");
   EXPECT_EQ(json["errors"]["rest"]["displacement_max"], 0.7);
   EXPECT_EQ(json["identities"]["volume"], 1e-15);
+}
+
+TEST(Summary, TellsOfMassScalingWhereThereIsSome) {
+  Summary s = example();
+  s.mass_scaling = {2e-6, 0.5, 0.125, 7, "block", 3, 4.0, 0.001};
+  const auto json = nlohmann::json::parse(to_json(s));
+  EXPECT_EQ(json["step_control"], (nlohmann::json{{"evaluations", 21}, {"limit", 0.25}}));
+  EXPECT_EQ(json["mass_scaling"]["added_share"], 0.125);
+  EXPECT_EQ(json["mass_scaling"]["most_affected"],
+            (nlohmann::json{{"body", "block"}, {"particle", 3}, {"factor", 4.0}}));
+  EXPECT_EQ(
+      mass_scaling_text(*s.mass_scaling),
+      "mass scaling for steps of 2e-06 s: 12.5% of the mass added, to 7 particles (particle 3 of body \"block\" is 4 "
+      "times as heavy); kinetic energy at most 0.1% of the energy after the first tenth of the run");
 }
 
 TEST(Summary, NumbersThatAreNotFiniteAreNull) {
