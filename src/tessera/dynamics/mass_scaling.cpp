@@ -16,7 +16,7 @@ constexpr int reductions = 3;
 constexpr double negligible_reduction = 0.02;
 // Rough vectors for the sizes of rows, which are then known to about a tenth.
 constexpr int probes = 16;
-constexpr Effort effort{81, 0.01, 0.0};
+constexpr Effort effort{81, 2e-3, 0.0};
 
 MassScaling with_masses(const System& s, std::vector<double> mass) {
   MassScaling scaling;

@@ -26,7 +26,7 @@ class Judge {
 
   /// Upper bound of the eigenvalue. Once the value has settled it is that and its residual. Before, the length of the
   /// next direction takes the place of the residual: a bound that holds in practice after some four iterations (Zhou
-  /// and Li, Linear Algebra and its Applications 435 (2011) 480-493).
+  /// and Li, Bounding the spectrum of large Hermitian matrices, 2011).
   double bound(const Ritz& r) {
     values_.push_back(r.value);
     settled_ = values_.size() > settling_iterations &&

@@ -91,7 +91,7 @@ TEST(Stiffening, BoundsTheGrowthOfTheFrequency) {
       forces.evaluate(state, {resting_walls(s), {}, {}}, 0.0);
       const double growth = stiffening.growth(forces.deformation_gradient());
       const NeoHookean law = std::get<NeoHookean>(s.materials[0].law);
-      EXPECT_NEAR(growth, law.wave_modulus(F) / law.plane_wave_modulus(), 1e-9);
+      EXPECT_NEAR(growth, law.wave_modulus(F) / law.plane_wave_modulus(), 1e-6);
       SpectralEstimator estimator(s);
       const double omega = estimator.largest_frequency(state, resting_walls(s), s.shortest_length, {200, 1e-4, 0.0});
       EXPECT_LT(omega, 1.02 * std::sqrt(growth) * exact(s)) << name_of(method);
@@ -107,7 +107,7 @@ TEST(MassScaling, ReachesTheStepThatIsWanted) {
       const MassScaling scaling = scale_mass(s, reference_state(s), resting_walls(s), step, safety);
       SpectralEstimator estimator(s, scaling.mass);
       const double reached = safety * stable_step(s, estimate(estimator, s, {200, 1e-4, 0.0}));
-      EXPECT_GT(reached, 0.999 * step);
+      EXPECT_GT(reached, 0.995 * step);
       EXPECT_LT(reached, 1.1 * step);
       EXPECT_GT(scaling.added_share, 0.0);
       EXPECT_LT(scaling.added_share, gain * gain - 1.0);
