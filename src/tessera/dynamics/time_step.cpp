@@ -27,11 +27,11 @@ constexpr std::int64_t first_interval = 500, shortest_interval = 50, longest_int
 constexpr double watchful_change = 0.02;
 // Stiffening since the last estimate (of moduli: twice that of frequencies) that calls for a new one.
 constexpr double noticeable_growth = 1.05;
-// Steps between two looks at the deformation, which cost about a fifth of an evaluation: fewer when the growth since
+// Steps between two looks at the deformation, which cost about a seventh of an evaluation: fewer when the growth since
 // the last look was more than this, more when it was less than half. A change of the smallest J, known at every step,
 // does not wait for the next look.
-constexpr std::int64_t first_watch = 10, shortest_watch = 5, longest_watch = 200;
-constexpr double watchful_growth = 0.05, watchful_compression = 0.02;
+constexpr std::int64_t shortest_watch = 20, longest_watch = 200;
+constexpr double watchful_growth = 0.05, watchful_compression = 0.05;
 // Shorter steps than this share of the present one are worth a change.
 constexpr double worthwhile_step = 0.99;
 // The step by bonds stays below this share of the spectral limit.
@@ -123,7 +123,7 @@ void StepControl::start_spectral(const State& state, std::span<const Vec3> walls
   if (spec_.end == 0.0) return;
   stiffening_.emplace(system_);
   memory_.estimate_interval = first_interval;
-  memory_.watch_interval = first_watch;
+  memory_.watch_interval = shortest_watch;
   // A run has end omega / (2 safety) steps.
   const Effort effort{most_evaluations, tolerance, 0.0, 0.5 * starting_share * spec_.end / spec_.safety};
   memory_.limit = limit_of(estimate(state, walls, effort));

@@ -60,7 +60,8 @@ Snapshot Engine::snapshot_of(const Observation& seen, Index begin, Index end) co
     const auto a = static_cast<std::size_t>(seen.particle[static_cast<std::size_t>(begin + i)]);
     const Material& m = s.materials[static_cast<std::size_t>(model_.material_of[a])];
     const Vec3 v = leapfrog_.velocity(state_, forces_, dt_, static_cast<Index>(a));
-    const Vec3 weight = s.mass[a] * model_.loads.gravity, drag = (-leapfrog_.damping() * s.mass[a]) * v;
+    const double moved = leapfrog_.mass(static_cast<Index>(a));
+    const Vec3 weight = s.mass[a] * model_.loads.gravity, drag = (-leapfrog_.damping() * moved) * v;
     const Vec3 total = to_vec3(forces_.total()[a]), traction = entry(seen.traction, a);
     shot.body[u] = model_.body_of[a];
     shot.material[u] = model_.material_of[a];
@@ -74,7 +75,7 @@ Snapshot Engine::snapshot_of(const Observation& seen, Index begin, Index end) co
     shot.deformation_gradient[u] = to_mat3(forces_.deformation_gradient()[a]);
     shot.first_piola_kirchhoff[u] = to_mat3(seen.internal.P[a]);
     shot.volume[u] = s.d.volume[a];
-    shot.mass[u] = s.mass[a];
+    shot.mass[u] = moved;
     shot.energy_density[u] =
         std::visit([&](const auto& law) { return law.energy(shot.deformation_gradient[u]); }, m.law);
   });
