@@ -4,6 +4,8 @@ import csv
 import json
 import os
 import pathlib
+import re
+import pathlib
 import subprocess
 import tempfile
 import unittest
@@ -103,6 +105,13 @@ class Usage(CliTest):
 
     def test_bench_of_accuracy_has_its_own_sizes(self):
         self.check_fails(USAGE, "--accuracy", "--particles", arguments=["bench", "--accuracy", "--particles", "1000"])
+
+    def test_bench_of_more_than_memory_holds(self):
+        available = re.search(r"MemAvailable:\s+(\d+) kB", pathlib.Path("/proc/meminfo").read_text())
+        if int(available[1]) > 200e6:
+            self.skipTest("this machine has room for the largest size")
+        self.check_fails(USAGE, "100000000 particles need about", "are available", "fewer with --particles",
+                         arguments=["bench", "--particles", "100000000"])
 
     def test_threads_of_the_environment(self):
         self.write(CASE)
