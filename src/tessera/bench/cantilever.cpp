@@ -92,6 +92,8 @@ Case cantilever_case(Formulation formulation, int per_metre) {
   c.materials = {rubber()};
   c.initial = {{"", {}, {Formula(0.0), Formula(0.0), Formula("10*X/6", {})}, {}}};
   c.boundary = {{"", {{"-x"}, {}}, Condition::fixed, {}}};
+  c.time.step = AutoSpectralStep{};
+  c.time.safety = 0.8;
   c.time.end = std::rbegin(cantilever_reference)->t;
   return c;
 }

@@ -9,7 +9,7 @@ namespace tessera {
 
 /// The swinging cantilever of [D 8.4], as examples/cantilever has it: a rubber beam of 6 m x 1 m x 1 m, clamped at
 /// X = 0, that starts with 10 m/s X / 6 m upwards. Particles on a lattice with a jitter of 0.2; voronoi is the
-/// consistent formulation. The run ends at 1 s.
+/// consistent formulation. The step is the default of a case file, spectral. The run ends at 1 s.
 Case cantilever_case(Formulation formulation, int per_metre);
 
 /// Where the upper corner of the free end is at the times of the reference, as (x1, x3) [m]; for voronoi the centre of
