@@ -86,13 +86,14 @@ std::vector<double> KrylovSpace::orthogonalise(Vectors& w) const {
   return column;
 }
 
-void KrylovSpace::extend(Vectors& w) {
+bool KrylovSpace::extend(Vectors& w) {
   if (!columns_.empty()) keep_direction();
   columns_.push_back(kind_ == Kind::symmetric ? recur(w) : orthogonalise(w));
   const double rest = columns_.back().back();
   if (rest > 0.0) scale(w, 1.0 / rest);
   previous_.swap(q_);
   q_.swap(w);
+  return rest > 0.0;
 }
 
 Ritz KrylovSpace::largest() const {

@@ -26,8 +26,8 @@ class KrylovSpace {
 
   /// The direction that the operator is to be applied to next, of length one.
   const Vectors& direction() const { return q_; }
-  /// Takes what the operator made of it (and uses the memory of `w`).
-  void extend(Vectors& w);
+  /// Takes what the operator made of it (and uses the memory of `w`). False when there is no further direction.
+  bool extend(Vectors& w);
 
   Ritz largest() const;
   /// The Ritz vector, of length one.

@@ -62,8 +62,12 @@ std::vector<double> at_least(std::vector<double> mass, double factor, const std:
 
 MassScaling scale_mass(const System& s, const State& state, std::span<const Vec3> walls, double step, double safety) {
   const double omega = frequency_of_step(s, step / safety);
+  std::int64_t evaluations = probes + 1;
   const auto highest = [&](const std::vector<double>& mass) {
-    return SpectralEstimator(s, mass).largest_frequency(state, walls, s.shortest_length, effort);
+    SpectralEstimator estimator(s, mass);
+    const double frequency = estimator.largest_frequency(state, walls, s.shortest_length, effort);
+    evaluations += estimator.memory().evaluations;
+    return frequency;
   };
   std::vector<double> k = row_sizes(s, state, walls);
   for (std::size_t a = 0; a < k.size(); ++a)
@@ -77,7 +81,9 @@ MassScaling scale_mass(const System& s, const State& state, std::span<const Vec3
     factor *= reduction;
     mass = at_least(s.mass, factor, k);
   }
-  return with_masses(s, std::move(mass));
+  MassScaling scaling = with_masses(s, std::move(mass));
+  scaling.evaluations = evaluations;
+  return scaling;
 }
 
 }  // namespace tessera

@@ -15,7 +15,8 @@ struct MassScaling {
   double added_share = 0.0;  // of the true mass
   Index particles = 0;       // that were made heavier
   Index most_affected = 0;
-  double largest_factor = 1.0;  // by which that particle is heavier
+  double largest_factor = 1.0;   // by which that particle is heavier
+  std::int64_t evaluations = 0;  // of the forces, that finding the masses took
 };
 
 /// The least masses, among those of one form, with which `step` is a stable one times `safety`:

@@ -12,7 +12,9 @@ namespace tessera {
 namespace {
 
 // A small residual alone may belong to a lower neighbour of the largest value, so the value must also have settled.
-constexpr std::size_t settling_iterations = 6;
+constexpr std::size_t settling_looks = 3;
+// Products between two looks at the small eigenvalue problem, which costs as much as the forces on a small body.
+constexpr int products_per_look = 2;
 constexpr double settled_per_tolerance = 0.1;
 // What the last vector of an estimate leaves to chance in the next one: another mode may have become the highest.
 constexpr double share_of_chance = 0.5;
@@ -29,10 +31,10 @@ class Judge {
   /// and Li, Bounding the spectrum of large Hermitian matrices, 2011).
   double bound(const Ritz& r) {
     values_.push_back(r.value);
-    settled_ = values_.size() > settling_iterations &&
-               r.value - values_[values_.size() - 1 - settling_iterations] <=
-                   settled_per_tolerance * effort_.tolerance * r.value &&
-               r.residual <= effort_.tolerance * r.value;
+    settled_ =
+        values_.size() > settling_looks &&
+        r.value - values_[values_.size() - 1 - settling_looks] <= settled_per_tolerance * effort_.tolerance * r.value &&
+        r.residual <= effort_.tolerance * r.value;
     exhausted_ = r.next <= 1e-12 * r.value;
     const double value = r.value + (settled_ || exhausted_ ? r.residual : r.next);
     return kind_ == KrylovSpace::Kind::symmetric ? value : general_margin * value;
@@ -40,9 +42,13 @@ class Judge {
 
   bool done(double bound, int evaluations) const {
     if (settled_ || exhausted_ || !std::isfinite(bound)) return true;
-    if (evaluations < SpectralEstimator::fewest_evaluations) return false;
-    const double allowed = effort_.evaluations_per_frequency * std::sqrt(std::max(values_.back(), 0.0));
-    return evaluations >= effort_.evaluations || evaluations + 1 > allowed || std::sqrt(bound) <= effort_.enough;
+    return evaluations >= allowed() || std::sqrt(bound) <= effort_.enough;
+  }
+
+  /// Evaluations that the effort allows as far as the frequency is known.
+  int allowed() const {
+    const double share = effort_.evaluations_per_frequency * std::sqrt(std::max(values_.back(), 0.0));
+    return static_cast<int>(std::min(share, static_cast<double>(effort_.evaluations)));
   }
 
  private:
@@ -78,13 +84,16 @@ double SpectralEstimator::largest_frequency(const State& state, std::span<const 
   Vectors w;
   Ritz ritz;
   double bound = 0.0;
-  do {
-    K.apply(space.direction(), w);
-    space.extend(w);
-    ++evaluations;
+  for (int products = fewest_evaluations - 1; products > 0;) {
+    for (bool more = true; more && products > 0; --products) {
+      K.apply(space.direction(), w);
+      ++evaluations;
+      more = space.extend(w);
+    }
     ritz = space.largest();
     bound = judge.bound(ritz);
-  } while (!judge.done(bound, evaluations));
+    products = judge.done(bound, evaluations) ? 0 : std::min(products_per_look, judge.allowed() - evaluations);
+  }
   memory_.vector = space.vector(ritz);
   K.hold(memory_.vector);
   memory_.evaluations += evaluations;

@@ -13,9 +13,9 @@ namespace tessera {
 namespace {
 
 // Evaluations of the forces that choosing the step may take: at the start a share of the steps that the run will have,
-// later a share of the steps done. Together 1.2 in a hundred; with what surrounds them (vectors, small eigenvalue
+// later a share of the steps done. Together 0.9 in a hundred; with what surrounds them (vectors, small eigenvalue
 // problems, looks at the deformation) it is two in a hundred in wall-clock time.
-constexpr double starting_share = 0.009, running_share = 0.003;
+constexpr double starting_share = 0.007, running_share = 0.002;
 // An estimate in the course of a run starts from the last vector and rarely takes more evaluations than this; it is
 // not worth starting with fewer.
 constexpr int evaluations_again = 10, most_evaluations = 32;
@@ -30,7 +30,7 @@ constexpr double noticeable_growth = 1.05;
 // Steps between two looks at the deformation, which cost about a seventh of an evaluation: fewer when the growth since
 // the last look was more than this, more when it was less than half. A change of the smallest J, known at every step,
 // does not wait for the next look.
-constexpr std::int64_t shortest_watch = 20, longest_watch = 200;
+constexpr std::int64_t shortest_watch = 30, longest_watch = 200;
 constexpr double watchful_growth = 0.05, watchful_compression = 0.05;
 // Shorter steps than this share of the present one are worth a change.
 constexpr double worthwhile_step = 0.99;

@@ -5,6 +5,10 @@
 
 #include "tessera/laws/neo_hookean_lanes.hpp"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 // One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__OPTIMIZE_SIZE__) && defined(__OPTIMIZE__)
@@ -32,6 +36,34 @@ inline void fetch(const T* value) {
 inline const Tile& tile_of(const System& s, Index tile) { return s.tiles.tiles[static_cast<std::size_t>(tile)]; }
 
 inline Columns minus_half(const Columns& F) { return {-0.5 * F.c0, -0.5 * F.c1, -0.5 * F.c2}; }
+
+// Arrays larger than this are not in the cache when they are read again [bytes].
+constexpr std::size_t largest_cached = std::size_t{16} << 20U;
+
+/// Writes a tensor; past the cache the processor need not fetch first what is overwritten.
+inline void store(Columns& to, const Columns& value, bool past_the_cache) {
+#if defined(__SSE2__)
+  if (past_the_cache) {
+    auto* numbers = reinterpret_cast<double*>(&to);
+    const Double4* columns = &value.c0;
+    for (int c = 0; c < 3; ++c) {
+      _mm_stream_pd(numbers + 4 * c, __builtin_shufflevector(columns[c], columns[c], 0, 1));
+      _mm_stream_pd(numbers + 4 * c + 2, __builtin_shufflevector(columns[c], columns[c], 2, 3));
+    }
+    return;
+  }
+#else
+  static_cast<void>(past_the_cache);
+#endif
+  to = value;
+}
+
+/// Makes what was written past the cache visible to other threads.
+inline void fence() {
+#if defined(__SSE2__)
+  _mm_sfence();
+#endif
+}
 
 }  // namespace
 
@@ -64,6 +96,7 @@ TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Col
   const Vec3* B = s.tiles.B.data() + tile.bond;
   const double* volume = s.d.volume.data() + tile.begin;
   Columns* __restrict F_own = F + tile.begin;
+  const bool past_the_cache = s.d.X.size() * sizeof(Columns) > largest_cached;
   for (Index a = 0; a < own; ++a) {
     const Double4 x_a = x_local[a];
     Columns VF{};
@@ -74,8 +107,9 @@ TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Col
     }
     neighbour += (bonds + 3) / 4 * 4;
     B += bonds;
-    F_own[a] = (1.0 / volume[a]) * VF;
+    store(F_own[a], (1.0 / volume[a]) * VF, past_the_cache);
   }
+  if (past_the_cache) fence();
 }
 
 namespace {

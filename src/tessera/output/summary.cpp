@@ -27,6 +27,7 @@ Json mass_scaling(const MassScalingSummary& m) {
           {"added_share", m.added_share},
           {"particles", m.particles},
           {"most_affected", {{"body", m.body}, {"particle", m.particle}, {"factor", m.largest_factor}}},
+          {"evaluations", m.evaluations},
           {"kinetic_share", m.kinetic_share}};
 }
 

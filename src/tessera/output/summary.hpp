@@ -33,7 +33,8 @@ struct MassScalingSummary {
   std::string body;            // of the particle that is most affected
   std::int64_t particle = 0;   // its number in that body
   double largest_factor = 1.0;
-  double kinetic_share = 0.0;  // largest share of the kinetic energy after the first tenth of the run
+  std::int64_t evaluations = 0;  // of the forces, to find the masses; part of the set-up
+  double kinetic_share = 0.0;    // largest share of the kinetic energy after the first tenth of the run
 };
 
 /// The result of a run in numbers: the content of summary.json, key for key.

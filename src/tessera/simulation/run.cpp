@@ -197,6 +197,7 @@ MassScalingSummary Run::mass_scaling_summary() const {
           body.name,
           model_->user_number[a] - body.first,
           m.largest_factor,
+          m.evaluations,
           engine_->largest_kinetic_share()};
 }
 

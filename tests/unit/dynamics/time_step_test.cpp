@@ -109,6 +109,7 @@ TEST(MassScaling, ReachesTheStepThatIsWanted) {
       const double reached = safety * stable_step(s, estimate(estimator, s, {200, 1e-4, 0.0}));
       EXPECT_GT(reached, 0.995 * step);
       EXPECT_LT(reached, 1.1 * step);
+      EXPECT_GT(scaling.evaluations, 17);
       EXPECT_GT(scaling.added_share, 0.0);
       EXPECT_LT(scaling.added_share, gain * gain - 1.0);
       EXPECT_LE(scaling.particles, s.particles());

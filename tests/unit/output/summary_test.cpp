@@ -53,10 +53,12 @@ TEST(Summary, HoldsEveryKey) {
 
 TEST(Summary, TellsOfMassScalingWhereThereIsSome) {
   Summary s = example();
-  s.mass_scaling = {2e-6, 0.5, 0.125, 7, "block", 3, 4.0, 0.001};
+  s.mass_scaling = {2e-6, 0.5, 0.125, 7, "block", 3, 4.0, 90, 0.001};
   const auto json = nlohmann::json::parse(to_json(s));
   EXPECT_EQ(json["step_control"], (nlohmann::json{{"evaluations", 21}, {"limit", 0.25}}));
   EXPECT_EQ(json["mass_scaling"]["added_share"], 0.125);
+  EXPECT_EQ(json["mass_scaling"]["evaluations"], 90);
+  EXPECT_EQ(json["mass_scaling"]["kinetic_share"], 0.001);
   EXPECT_EQ(json["mass_scaling"]["most_affected"],
             (nlohmann::json{{"body", "block"}, {"particle", 3}, {"factor", 4.0}}));
   EXPECT_EQ(
