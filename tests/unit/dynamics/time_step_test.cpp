@@ -25,6 +25,8 @@ TEST(Effort, OfFewEvaluationsStillGivesABound) {
   for (Method method : {Method::delaunay, Method::consistent, Method::quasi_static})
     for (double jitter : {0.0, 0.25, 0.45})
       for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        // Lattices can be split into tetrahedra without CGAL, but not when they are that irregular.
+        if (method == Method::delaunay && jitter > 0.3 && !TESSERA_TEST_WITH_CGAL) continue;
         const System s = cube(method, jitter, seed, seed % 2 == 0 ? mixed : nothing);
         const double omega = exact(s);
         for (int evaluations : {6, 8, 12}) {
