@@ -50,13 +50,20 @@ struct EnergyLedger {
   double kinetic = 0.0;
   double internal = 0.0;
   double contact = 0.0;
-  double external_work = 0.0;  // of tractions, gravity and prescribed motion, since the start
-  double dissipated = 0.0;     // by viscosity and damping, since the start
-  double initial = 0.0;        // kinetic + internal + contact at the start
-  double scale = 0.0;          // largest energy seen so far, the measure for the relative error
+  double external_work = 0.0;    // of tractions, gravity and prescribed motion, since the start
+  double dissipated = 0.0;       // by viscosity and damping, since the start
+  double initial = 0.0;          // kinetic + internal + contact at the start
+  double scale = 0.0;            // largest energy seen so far, the measure for the relative error
+  double largest_contact = 0.0;  // seen so far
+  double largest_strain = 0.0;   // internal + contact, seen so far
 
   double error() const { return kinetic + internal + contact + dissipated - external_work - initial; }
   double relative_error() const { return scale > 0.0 ? error() / scale : 0.0; }
+  double strain() const { return internal + contact; }
+  /// Share of the bonds in the strain energy, which they stabilise; not a number without strain.
+  double contact_share() const { return contact / strain(); }
+  /// Largest energy of the bonds over the largest strain energy; not a number without strain.
+  double largest_contact_share() const { return largest_contact / largest_strain; }
 };
 
 struct Momentum {

@@ -16,9 +16,14 @@ using Json = nlohmann::ordered_json;  // writes numbers that are not finite as n
 Json list(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json energy(const EnergyLedger& e) {
-  return {{"kinetic", e.kinetic},       {"internal", e.internal},
-          {"contact", e.contact},       {"external_work", e.external_work},
-          {"dissipated", e.dissipated}, {"relative_error", e.relative_error()}};
+  return {{"kinetic", e.kinetic},
+          {"internal", e.internal},
+          {"contact", e.contact},
+          {"external_work", e.external_work},
+          {"dissipated", e.dissipated},
+          {"relative_error", e.relative_error()},
+          {"contact_share", e.contact_share()},
+          {"largest_contact_share", e.largest_contact_share()}};
 }
 
 Json mass_scaling(const MassScalingSummary& m) {

@@ -110,6 +110,8 @@ EnergyLedger Engine::energies() const {
   e.dissipated = ledger_.dissipated();
   e.initial = initial_energy_;
   e.scale = std::max(energy_scale_, e.kinetic + e.internal + e.contact + e.dissipated);
+  e.largest_contact = std::max(largest_contact_, e.contact);
+  e.largest_strain = std::max(largest_strain_, e.strain());
   return e;
 }
 
@@ -150,6 +152,8 @@ void Engine::verify_deformation() const {
 void Engine::verify_energy() {
   const EnergyLedger e = energies();
   energy_scale_ = e.scale;
+  largest_contact_ = e.largest_contact;
+  largest_strain_ = e.largest_strain;
   if (time_ > starting_part * spec_.end) largest_kinetic_share_ = std::max(largest_kinetic_share_, kinetic_share(e));
   if (!has_potential(model_.system.d)) return;  // the ledger need not close
   if (step_ < fewest_judged_steps) return;

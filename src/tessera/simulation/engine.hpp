@@ -87,6 +87,7 @@ class Engine {
   Momentum initial_momentum_;
   double energy_scale_ = 0.0;
   double largest_kinetic_share_ = 0.0;
+  double largest_contact_ = 0.0, largest_strain_ = 0.0;
 };
 
 }  // namespace tessera

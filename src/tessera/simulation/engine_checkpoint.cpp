@@ -70,8 +70,8 @@ Checkpoint Engine::checkpoint() const {
   c.arrays["initial_position"] = flat(x0_.data(), x0_.size());
   c.arrays["time"] = {time_, dt_.before, dt_.after, model_.loads.motion.time()};
   c.arrays["step_control"] = {step.dt, step.limit, step.growth, step.smallest_J};
-  c.arrays["energy"] = {books.accounts[0], books.accounts[1], books.accounts[2],
-                        initial_energy_,   energy_scale_,     largest_kinetic_share_};
+  c.arrays["energy"] = {books.accounts[0], books.accounts[1],      books.accounts[2], initial_energy_,
+                        energy_scale_,     largest_kinetic_share_, largest_contact_,  largest_strain_};
   c.arrays["initial_momentum"] = flat({initial_momentum_.linear, initial_momentum_.angular});
   c.arrays["integrated_motion"] = flat(model_.loads.motion.integrated());
   c.arrays["spectral_vector"] = flat(control.estimator.vector.data(), control.estimator.vector.size());
@@ -98,7 +98,7 @@ void Engine::restore(const Checkpoint& c) {
   check_same_model(c);
   const auto n = static_cast<std::size_t>(model_.system.particles());
   const std::vector<double>& time = c.array("time", 4);
-  const std::vector<double>& energy = c.array("energy", 6);
+  const std::vector<double>& energy = c.array("energy", 8);
   const std::vector<std::int64_t>& step = c.integer("step", 2);
   const Field<Double4> x = vectors(c.array("position", 3 * n));
   std::copy(x.begin(), x.end(), state_.x.begin());
@@ -117,6 +117,8 @@ void Engine::restore(const Checkpoint& c) {
   initial_energy_ = energy[3];
   energy_scale_ = energy[4];
   largest_kinetic_share_ = energy[5];
+  largest_contact_ = energy[6];
+  largest_strain_ = energy[7];
   const std::vector<Vec3> momentum = positions(c.array("initial_momentum", 6));
   initial_momentum_ = {momentum[0], momentum[1]};
 

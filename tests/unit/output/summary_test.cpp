@@ -23,6 +23,10 @@ Summary example() {
   s.energy.kinetic = 2.0;
   s.energy.initial = 1.0;
   s.energy.scale = 4.0;
+  s.energy.internal = 3.0;
+  s.energy.contact = 1.0;
+  s.energy.largest_contact = 2.0;
+  s.energy.largest_strain = 5.0;
   s.momentum.linear = {1.0, 2.0, 3.0};
   s.momentum_change.angular = {0.0, 0.0, 1e-13};
   s.errors["exact"] = {0.01, 0.002, ErrorMeasure::relative};
@@ -41,7 +45,9 @@ TEST(Summary, HoldsEveryKey) {
   EXPECT_EQ(json["dt"].get<double>(), 1.0 / 3.0);
   EXPECT_EQ(json["wall_seconds"],
             (nlohmann::json{{"setup", 1.0}, {"steps", 2.0}, {"time_step", 0.5}, {"output", 3.0}}));
-  EXPECT_EQ(json["energy"]["relative_error"], 0.25);
+  EXPECT_EQ(json["energy"]["relative_error"], 1.25);
+  EXPECT_EQ(json["energy"]["contact_share"], 0.25);
+  EXPECT_EQ(json["energy"]["largest_contact_share"], 0.4);
   EXPECT_EQ(json["momentum"]["linear"], (nlohmann::json{1.0, 2.0, 3.0}));
   EXPECT_EQ(json["momentum"]["angular_change"][2], 1e-13);
   EXPECT_EQ(json["errors"]["exact"]["displacement_l2"], 0.01);
@@ -71,9 +77,11 @@ TEST(Summary, NumbersThatAreNotFiniteAreNull) {
   Summary s = example();
   s.max_force_residual = std::nan("");
   s.particle_steps_per_second = std::numeric_limits<double>::infinity();
+  s.energy = {};  // no strain, so no share of the bonds in it
   const auto json = nlohmann::json::parse(to_json(s));
   EXPECT_TRUE(json["max_force_residual"].is_null());
   EXPECT_TRUE(json["particle_steps_per_second"].is_null());
+  EXPECT_TRUE(json["energy"]["contact_share"].is_null());
 }
 
 TEST(Summary, EmptyListsAreObjectsAndMessagesAppear) {

@@ -101,6 +101,26 @@ TEST(Momentum, OfFreeBodiesStays) {
   }
 }
 
+/// The summary's largest share of the bonds is taken over the whole run, not at its end.
+TEST(ContactShare, LargestOverTheRun) {
+  Case c = cube_case(Method::delaunay);
+  c.initial = {initial_velocity(formulas("Y*Z", "X", "-2*X*Y"))};
+  Running run(c);
+  double contact = 0.0, strain = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    run.advance(1);
+    run.engine.prepare();
+    run.engine.verify_energy();
+    const EnergyLedger e = run.engine.energies();
+    contact = std::max(contact, e.contact);
+    strain = std::max(strain, e.internal + e.contact);
+  }
+  const EnergyLedger end = run.engine.energies();
+  EXPECT_GT(contact, end.contact);
+  EXPECT_EQ(end.largest_contact_share(), contact / strain);
+  EXPECT_EQ(end.contact_share(), end.contact / (end.contact + end.internal));
+}
+
 /// With gravity and a supporting wall the reaction carries the weight when all has come to rest.
 TEST(Reactions, CarryTheWeightAtRest) {
   for (Method method : all_methods) {
