@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tessera/base/index.hpp"
-#include "tessera/base/vec3.hpp"
+#include "tessera/base/symmetric.hpp"
 #include "tessera/geometry/solid.hpp"
 
 namespace tessera {
@@ -26,6 +26,10 @@ struct BoundaryFace {
   Vec3 centroid;
 };
 
+/// How far moments of cells and faces are computed: volumes, areas and centroids only; the second moments of cells too;
+/// or those of faces as well.
+enum class Moments { first, second_of_cells, second_of_faces };
+
 /// Voronoi cells cut by a solid. Each face is computed once, so both cells see the same numbers. Faces between one pair
 /// or of one owner and side are merged where they are in one plane.
 struct Cells {
@@ -33,11 +37,16 @@ struct Cells {
   std::vector<Vec3> centroid;          // [m]
   std::vector<InteriorFace> interior;  // sorted by (a, b)
   std::vector<BoundaryFace> boundary;  // sorted by (owner, side)
+
+  // Second moments about the centroid, empty where they were not asked for: the integrals of (Y - C) (x) (Y - C) over
+  // each cell [m5] and over each face [m4], the latter in the order of the faces.
+  std::vector<Symmetric3> second_moment;
+  std::vector<Symmetric3> interior_second_moment, boundary_second_moment;
 };
 
 /// The Voronoi cells of `points` in `solid`; a cell has the index of its point. Throws GeometryError that names the
 /// particle when one is outside the solid, two coincide, or a cell is empty or does not close.
-Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid);
+Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid, Moments moments = Moments::first);
 
 /// One convex part of a cell, for pictures. Faces list vertices counter-clockwise seen from outside.
 struct Polyhedron {

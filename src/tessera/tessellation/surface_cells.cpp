@@ -41,19 +41,43 @@ std::vector<Vec3> generators_of(std::span<const Vec3> points, const TriangleSurf
   return generators;
 }
 
+/// A face of a cell in one part, as it is kept until all cells are cut.
+struct KeptFace {
+  Index neighbour, patch;
+  FlatArea piece;
+};
+
+/// A face where it is stored; `second` is null where second moments are not wanted.
+struct StoredFace {
+  Index neighbour, patch;
+  const FlatArea* piece;
+  const Symmetric3* second;
+};
+
 /// A face as it enters the list of all: the pair whose bisector it lies in, or the flat patch of the surface.
 struct ListedFace {
   Index a, b;  // owners now; b is -1 on the boundary
   Index low, high;
-  Vec3 area;    // from a to b, or out of the solid
-  Vec3 moment;  // area times centroid
-  double size;
+  Index cell;  // of which `piece` is a face; positions in it are relative to its particle
+  int sign;    // -1 where the piece's area points from b to a
+  const FlatArea* piece;
+  const Symmetric3* second;
 };
+
+/// A second moment about a point at `shift` from the new one, turned to that: `size` and `moment` are those about the
+/// old one.
+Symmetric3 moved(const Symmetric3& second, const Vec3& moment, double size, const Vec3& shift) {
+  return second + symmetric_product(moment, shift) + size * square(shift);
+}
 
 class SurfaceAssembly {
  public:
-  SurfaceAssembly(std::span<const Vec3> points, const SurfaceIndex& index)
-      : points_(points), index_(index), planes_(find_planes(index.surface())), solid_volume_(volume(index.surface())) {}
+  SurfaceAssembly(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments)
+      : points_(points),
+        index_(index),
+        moments_(moments),
+        planes_(find_planes(index.surface())),
+        solid_volume_(volume(index.surface())) {}
 
   SurfaceCells assemble() {
     check_particles();
@@ -98,16 +122,18 @@ class SurfaceAssembly {
     });
     result_.cells.volume.assign(points_.size(), 0.0);
     moment_.assign(points_.size(), {});
+    second_.assign(moments_ == Moments::first ? 0 : points_.size(), {});
+    kept_second_.assign(with_faces() ? points_.size() : 0, {});
     split_.clear();
     split_.resize(points_.size());
     std::vector<char> meets_fence(points_.size(), 0);
-    faces_ = parallel::collect_rows<CutFace>(static_cast<Index>(points_.size()),
-                                             [&](Index a, parallel::RowCollector<CutFace>& out) {
-                                               typename parallel::Workspaces<Tools>::Lease own(tools);
-                                               const CutCell& cell = own->surface.cut(own->cells.cut(a));
-                                               const auto i = static_cast<std::size_t>(a);
-                                               meets_fence[i] = add_cell(a, cell, out) ? 0 : 1;
-                                             });
+    faces_ = parallel::collect_rows<KeptFace>(static_cast<Index>(points_.size()),
+                                              [&](Index a, parallel::RowCollector<KeptFace>& out) {
+                                                typename parallel::Workspaces<Tools>::Lease own(tools);
+                                                const CutCell& cell = own->surface.cut(own->cells.cut(a));
+                                                const auto i = static_cast<std::size_t>(a);
+                                                meets_fence[i] = add_cell(a, cell, out) ? 0 : 1;
+                                              });
     if (std::find(meets_fence.begin(), meets_fence.end(), 1) != meets_fence.end()) return false;
     double total = 0.0;
     for (const double V : result_.cells.volume) total += V;
@@ -115,11 +141,12 @@ class SurfaceAssembly {
   }
 
   /// False when the cell has a face with the fence.
-  bool add_cell(Index a, const CutCell& cell, parallel::RowCollector<CutFace>& out) {
+  bool add_cell(Index a, const CutCell& cell, parallel::RowCollector<KeptFace>& out) {
     const auto i = static_cast<std::size_t>(a);
     for (const CutCell::Part& part : cell.parts) {
       result_.cells.volume[i] += part.volume;
       moment_[i] += part.moment;
+      if (!second_.empty()) second_[i] += part.second;
     }
     const double V = result_.cells.volume[i];
     if (!(V > 0.0)) throw GeometryError("the Voronoi cell of " + named(points_, a) + " is empty");
@@ -127,7 +154,9 @@ class SurfaceAssembly {
     for (const CutFace& face : cell.faces) {
       if (face.neighbour >= static_cast<Index>(points_.size()) && std::abs(face.piece.size) > smallest_face(a))
         return false;
-      if (cell.parts.size() == 1 && (face.neighbour < 0 || face.neighbour > a)) out.add(face);
+      if (cell.parts.size() > 1 || (face.neighbour >= 0 && face.neighbour < a)) continue;
+      out.add({face.neighbour, face.patch, face.piece});
+      if (!kept_second_.empty()) kept_second_[i].push_back(face.piece.second);
     }
     return true;
   }
@@ -155,37 +184,45 @@ class SurfaceAssembly {
         volume[from] -= part.volume;
         moment_[from] -= part.moment;
         volume[to] += part.volume;
-        moment_[to] += part.moment + part.volume * (point(a) - point(owner));
+        const Vec3 shift = point(a) - point(owner);
+        moment_[to] += part.moment + part.volume * shift;
+        if (!second_.empty()) {
+          second_[from] -= part.second;
+          second_[to] += moved(part.second, part.moment, part.volume, shift);
+        }
         ++result_.adopted;
         result_.adopted_volume += part.volume;
       }
     }
     for (std::size_t a = 0; a < points_.size(); ++a)
       result_.cells.centroid.push_back(points_[a] + moment_[a] / volume[a]);
+    for (std::size_t a = 0; a < second_.size(); ++a)
+      result_.cells.second_moment.push_back(second_[a] - (1.0 / volume[a]) * square(moment_[a]));
   }
 
-  void list(Index cell, const CutFace& face, Index a, Index b) {
+  void list(Index cell, const StoredFace& face, Index a, Index b) {
     if (a == b) return;
     const bool is_reversed = b >= 0 && a > b;
-    const double sign = is_reversed ? -1.0 : 1.0;
-    const Vec3 moment = face.piece.moment + face.piece.size * point(cell);
     if (is_reversed) std::swap(a, b);
-    if (std::abs(face.piece.size) < smallest_face(a)) return;
+    if (std::abs(face.piece->size) < smallest_face(a)) return;
     const auto [low, high] =
         face.neighbour >= 0 ? std::minmax(cell, face.neighbour) : std::minmax(face.patch, face.patch);
-    listed_.push_back({a, b, low, high, sign * face.piece.area, moment, face.piece.size});
+    listed_.push_back({a, b, low, high, cell, is_reversed ? -1 : 1, face.piece, face.second});
   }
 
   void list_faces() {
     for (Index a = 0; a < static_cast<Index>(points_.size()); ++a) {
-      if (const CutCell* cell = split_[static_cast<std::size_t>(a)].get()) {
+      const auto i = static_cast<std::size_t>(a);
+      if (const CutCell* cell = split_[i].get()) {
         for (const CutFace& face : cell->faces) list_split(a, face);
         continue;
       }
-      for (const CutFace& face : faces_.row(a))
-        if (face.neighbour < 0 || !split_[static_cast<std::size_t>(face.neighbour)]) list(a, face, a, face.neighbour);
+      const std::span<const KeptFace> row = faces_.row(a);
+      for (std::size_t f = 0; f < row.size(); ++f)
+        if (row[f].neighbour < 0 || !split_[static_cast<std::size_t>(row[f].neighbour)])
+          list(a, {row[f].neighbour, row[f].patch, &row[f].piece, with_faces() ? &kept_second_[i][f] : nullptr}, a,
+               row[f].neighbour);
     }
-    faces_ = {};
     std::stable_sort(listed_.begin(), listed_.end(), [this](const ListedFace& f, const ListedFace& g) {
       return (f.b < 0) != (g.b < 0) ? g.b < 0 : key(f) < key(g);
     });
@@ -193,12 +230,15 @@ class SurfaceAssembly {
   }
 
   void list_split(Index a, const CutFace& face) {
+    const StoredFace stored{face.neighbour, face.patch, &face.piece, with_faces() ? &face.piece.second : nullptr};
     const Index owner = owners_->owner(a, face.part);
-    if (face.neighbour < 0) return list(a, face, owner, -1);
+    if (face.neighbour < 0) return list(a, stored, owner, -1);
     const bool is_common = split_[static_cast<std::size_t>(face.neighbour)] != nullptr;
     if (is_common && face.neighbour < a) return;
-    list(a, face, owner, owners_->owner_behind(a, face));
+    list(a, stored, owner, owners_->owner_behind(a, face));
   }
+
+  bool with_faces() const { return moments_ == Moments::second_of_faces; }
 
   Index side_of(const ListedFace& face) const { return planes_.side[static_cast<std::size_t>(face.low)]; }
   std::tuple<Index, Index, Index, Index> key(const ListedFace& face) const {
@@ -206,21 +246,42 @@ class SurfaceAssembly {
     return {face.a, face.b, face.low, face.high};
   }
 
+  /// Puts the pieces of one face together; positions are relative to the particle of its owner a.
+  FlatPiece together(std::span<const ListedFace> pieces) const {
+    FlatPiece sum;
+    for (const ListedFace& f : pieces) {
+      const FlatArea& piece = *f.piece;
+      const Vec3 shift = point(f.cell) - point(f.a);
+      sum.area += static_cast<double>(f.sign) * piece.area;
+      sum.moment += piece.moment + piece.size * shift;
+      sum.size += piece.size;
+      if (f.second != nullptr) sum.second += moved(*f.second, piece.moment, piece.size, shift);
+    }
+    return sum;
+  }
+
   void merge_listed() {
-    Cells& cells = result_.cells;
     for (auto first = listed_.begin(); first != listed_.end();) {
-      ListedFace sum = *first;
       auto next = first + 1;
-      for (; next != listed_.end() && (next->b < 0) == (first->b < 0) && key(*next) == key(*first); ++next)
-        sum.area += next->area, sum.moment += next->moment, sum.size += next->size;
-      const Vec3 centroid = sum.moment / sum.size;
-      if (sum.b < 0)
-        cells.boundary.push_back({sum.a, side_of(sum), sum.area, centroid});
-      else
-        cells.interior.push_back({sum.a, sum.b, sum.area, centroid, sum.low == sum.a && sum.high == sum.b});
+      while (next != listed_.end() && (next->b < 0) == (first->b < 0) && key(*next) == key(*first)) ++next;
+      add_face(*first, together({first, next}));
       first = next;
     }
     listed_ = {};
+    faces_ = {};
+    kept_second_ = {};
+  }
+
+  void add_face(const ListedFace& f, const FlatPiece& piece) {
+    Cells& cells = result_.cells;
+    const Vec3 C = point(f.a) + piece.moment / piece.size;
+    if (f.b < 0)
+      cells.boundary.push_back({f.a, side_of(f), piece.area, C});
+    else
+      cells.interior.push_back({f.a, f.b, piece.area, C, f.low == f.a && f.high == f.b});
+    if (with_faces())
+      (f.b < 0 ? cells.boundary_second_moment : cells.interior_second_moment)
+          .push_back(piece.second - (1.0 / piece.size) * square(piece.moment));
   }
 
   struct Balance {
@@ -251,11 +312,14 @@ class SurfaceAssembly {
 
   std::span<const Vec3> points_;
   const SurfaceIndex& index_;
+  Moments moments_;
   SurfacePlanes planes_;
   double solid_volume_;
-  Csr<CutFace> faces_;                           // of cells in one part
-  std::vector<std::unique_ptr<CutCell>> split_;  // cells in several parts
-  std::vector<Vec3> moment_;                     // volume times centroid relative to the particle
+  Csr<KeptFace> faces_;                               // of cells in one part
+  std::vector<std::vector<Symmetric3>> kept_second_;  // their second moments, if wanted
+  std::vector<std::unique_ptr<CutCell>> split_;       // cells in several parts
+  std::vector<Vec3> moment_;                          // volume times centroid relative to the particle
+  std::vector<Symmetric3> second_;                    // moments about the particle, if wanted
   std::unique_ptr<SplitCells> owners_;
   std::vector<ListedFace> listed_;
   SurfaceCells result_;
@@ -263,9 +327,9 @@ class SurfaceAssembly {
 
 }  // namespace
 
-SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index) {
+SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments) {
   if (points.empty()) throw GeometryError("there are no particles to make Voronoi cells of");
-  return SurfaceAssembly(points, index).assemble();
+  return SurfaceAssembly(points, index, moments).assemble();
 }
 
 }  // namespace tessera

@@ -22,6 +22,6 @@ struct SurfaceCells {
 ///
 /// Throws GeometryError that names the particle when one is not inside, two coincide, or a part of more than half its
 /// cell is cut off; and when a part of the solid holds no particle at all.
-SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index);
+SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments = Moments::first);
 
 }  // namespace tessera

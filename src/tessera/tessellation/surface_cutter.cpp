@@ -72,7 +72,9 @@ FlatPiece SurfaceCutter::measure(std::span<const Member> lines) const {
     piece.area += area;
     piece.size += size;
     piece.moment += (size / 3.0) * (u + v);
+    piece.second += (size / 12.0) * (square(u) + square(v) + square(u + v));
   }
+  piece.second += symmetric_product(piece.moment, origin) + piece.size * square(origin);
   piece.moment += piece.size * origin;
   return piece;
 }
@@ -114,7 +116,9 @@ void SurfaceCutter::measure_shells() {
     Shell& shell = shells_[static_cast<std::size_t>(lines.front().shell)];
     const Vec3 origin = origin_of(lines);
     shell.volume += dot(piece.area, origin) / 3.0;
-    shell.moment += 0.25 * dot(normal_of(lines.front().carrier), origin) * piece.moment;
+    const double height = dot(normal_of(lines.front().carrier), origin);
+    shell.moment += 0.25 * height * piece.moment;
+    shell.second += 0.2 * height * piece.second;
     if (lines.front().carrier < cell_->faces()) shell.free_area += piece.size;
   });
 }
@@ -166,6 +170,7 @@ void SurfaceCutter::find_parts() {
     CutCell::Part& part = result_.parts[static_cast<std::size_t>(shell.part)];
     part.volume += shell.volume;
     part.moment += shell.moment;
+    part.second += shell.second;
   }
 }
 

@@ -3,18 +3,24 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/symmetric.hpp"
 #include "tessera/tessellation/surface_lines.hpp"
 
 namespace tessera {
 
 /// A flat piece of a cell's boundary, of any outline. Positions are relative to the particle.
-struct FlatPiece {
+struct FlatArea {
   Vec3 area;          // out of the cell [m2]
   Vec3 moment;        // area times centroid [m3]
   double size = 0.0;  // area along the outward normal [m2]
+};
 
-  void add(const FlatPiece& other) { area += other.area, moment += other.moment, size += other.size; }
-  Vec3 centroid() const { return moment / size; }
+struct FlatPiece : FlatArea {
+  Symmetric3 second;  // second moment about the particle [m4]
+
+  void add(const FlatPiece& other) {
+    area += other.area, moment += other.moment, size += other.size, second += other.second;
+  }
 };
 
 /// What bounds a cell within the solid: a face towards a neighbour or a flat patch of the surface.
@@ -32,6 +38,7 @@ struct CutCell {
   struct Part {
     double volume = 0.0;  // [m3]
     Vec3 moment;          // volume times centroid, relative to the particle [m4]
+    Symmetric3 second;    // second moment about the particle [m5]
   };
   std::vector<CutFace> faces;
   std::vector<Part> parts;
@@ -59,6 +66,7 @@ class SurfaceCutter {
   struct Shell {
     double volume = 0.0;
     Vec3 moment;
+    Symmetric3 second;
     double free_area = 0.0;  // of faces towards neighbours
     Index part = -1;
   };

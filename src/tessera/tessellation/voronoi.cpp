@@ -17,8 +17,9 @@ constexpr double kRoundoffFace = 1e-14;  // of V^(2/3): faces smaller than this 
 constexpr double kClosed = 1e-8;         // of the surface or volume: cells that miss more are wrong
 
 struct FlatFace {
-  Vec3 area;      // [m2]
-  Vec3 centroid;  // relative to the cell's particle [m]
+  Vec3 area;          // [m2]
+  Vec3 centroid;      // relative to the cell's particle [m]
+  Symmetric3 second;  // moment about the centroid, if wanted [m4]
 };
 
 FlatFace measure(const ConvexPolyhedron& part, Index f, const Vec3& X) {
@@ -34,7 +35,23 @@ FlatFace measure(const ConvexPolyhedron& part, Index f, const Vec3& X) {
     const Vec3 u = vertex(i) - first, v = vertex(i + 1) - first;
     moment += 0.5 * dot(cross(u, v), area) * (u + v);
   }
-  return {area, (first - X) + moment / (3.0 * size2)};
+  return {area, (first - X) + moment / (3.0 * size2), {}};
+}
+
+/// The integral of (Y - C) (x) (Y - C) over a face with centroid C, as triangles from one of its vertices.
+Symmetric3 second_moment(const ConvexPolyhedron& part, Index f, const Vec3& X, const FlatFace& face) {
+  const std::span<const Index> corners = part.face(f);
+  const auto vertex = [&](std::size_t i) { return part.vertices[static_cast<std::size_t>(corners[i])]; };
+  const double size = norm(face.area);
+  if (size == 0.0) return {};
+  const Vec3 first = vertex(0);
+  Symmetric3 sum;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Vec3 u = vertex(i) - first, v = vertex(i + 1) - first;
+    const double share = dot(cross(u, v), face.area) / (24.0 * size);
+    sum += share * (square(u) + square(v) + square(u + v));
+  }
+  return sum - size * square(face.centroid + X - first);
 }
 
 /// The faces of one cell towards one neighbour or side, put together from the pieces of the solid.
@@ -43,6 +60,7 @@ struct MergedFace {
   Vec3 area;
   Vec3 moment;  // area times centroid [m3]
   double size = 0.0;
+  Symmetric3 second;  // moment about the centroid [m4]
 
   Vec3 centroid() const { return moment / size; }
 };
@@ -50,31 +68,41 @@ struct MergedFace {
 struct CellSums {
   std::vector<MergedFace> faces;
   double volume = 0.0;
-  Vec3 moment;  // volume times centroid [m4]
+  Vec3 moment;        // volume times centroid [m4]
+  Symmetric3 second;  // moment about the particle [m5]
 
   void clear() {
     faces.clear();
     volume = 0.0;
     moment = {};
+    second = {};
   }
 };
 
 void add_face(CellSums& sums, Index tag, const FlatFace& face) {
   auto it = std::find_if(sums.faces.begin(), sums.faces.end(), [tag](const MergedFace& m) { return m.tag == tag; });
-  if (it == sums.faces.end()) it = sums.faces.insert(sums.faces.end(), MergedFace{tag, {}, {}, 0.0});
+  if (it == sums.faces.end()) it = sums.faces.insert(sums.faces.end(), MergedFace{tag, {}, {}, 0.0, {}});
   const double size = norm(face.area);
+  it->second += face.second;
+  if (it->size > 0.0 && size > 0.0)  // parallel axes
+    it->second += (it->size * size / (it->size + size)) * square(it->centroid() - face.centroid);
   it->area += face.area;
   it->moment += size * face.centroid;
   it->size += size;
 }
 
-/// Cones from the particle to the faces give volume and centroid, inner walls included.
-void add_part(CellSums& sums, const ConvexPolyhedron& part, const Vec3& X) {
+/// Cones from the particle to the faces give volume, centroid and second moment, inner walls included.
+void add_part(CellSums& sums, const ConvexPolyhedron& part, const Vec3& X, Moments moments) {
   for (Index f = 0; f < part.faces(); ++f) {
-    const FlatFace face = measure(part, f, X);
+    FlatFace face = measure(part, f, X);
     const double cone = dot(face.area, face.centroid) / 3.0;
     sums.volume += cone;
     sums.moment += 0.75 * cone * face.centroid;
+    if (moments != Moments::first) {
+      face.second = second_moment(part, f, X, face);
+      sums.second += 0.6 * cone * square(face.centroid);
+      if (const double size = norm(face.area); size > 0.0) sums.second += (0.6 * cone / size) * face.second;
+    }
     const Index tag = part.tags[static_cast<std::size_t>(f)];
     if (tag != VoronoiCutter::kInnerWall) add_face(sums, tag, face);
   }
@@ -95,7 +123,14 @@ constexpr std::int64_t kBatch = 128 * parallel::block_size;
 struct Faces {
   std::vector<InteriorFace> interior;
   std::vector<BoundaryFace> boundary;
+  std::vector<Symmetric3> interior_second_moment, boundary_second_moment;  // if wanted
 };
+
+/// Puts one block's values where they belong.
+template <class T>
+void copy_to(std::vector<T>& all, std::size_t place, const std::vector<T>& values) {
+  std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(place));
+}
 
 /// Where one block's faces go.
 struct Place {
@@ -110,14 +145,15 @@ struct Workspace {
 
 class Assembly {
  public:
-  Assembly(std::span<const Vec3> points, const Solid& solid)
-      : points_(points), grid_(VoronoiCutter::grid_of(points, solid)), workspaces_([this, &solid] {
+  Assembly(std::span<const Vec3> points, const Solid& solid, Moments moments)
+      : points_(points), moments_(moments), grid_(VoronoiCutter::grid_of(points, solid)), workspaces_([this, &solid] {
           return std::unique_ptr<Workspace>(new Workspace{VoronoiCutter(points_, solid, grid_), {}});
         }) {}
 
   Cells assemble() {
     cells_.volume.resize(points_.size());
     cells_.centroid.resize(points_.size());
+    if (moments_ != Moments::first) cells_.second_moment.resize(points_.size());
     cells_.interior.reserve(kExpectedFaces * points_.size());
     const auto n = static_cast<std::int64_t>(points_.size());
     for (std::int64_t first = 0; first < n; first += kBatch) add_cells(first, std::min(first + kBatch, n));
@@ -150,13 +186,17 @@ class Assembly {
     }
     cells_.interior.resize(end.interior);
     cells_.boundary.resize(end.boundary);
+    if (with_faces()) {
+      cells_.interior_second_moment.resize(end.interior);
+      cells_.boundary_second_moment.resize(end.boundary);
+    }
     parallel::for_ranges(first, last, [&](std::int64_t begin, std::int64_t) {
       const Faces& faces = blocks[block(begin)];
       const Place& place = places[block(begin)];
-      std::copy(faces.interior.begin(), faces.interior.end(),
-                cells_.interior.begin() + static_cast<std::ptrdiff_t>(place.interior));
-      std::copy(faces.boundary.begin(), faces.boundary.end(),
-                cells_.boundary.begin() + static_cast<std::ptrdiff_t>(place.boundary));
+      copy_to(cells_.interior, place.interior, faces.interior);
+      copy_to(cells_.boundary, place.boundary, faces.boundary);
+      copy_to(cells_.interior_second_moment, place.interior, faces.interior_second_moment);
+      copy_to(cells_.boundary_second_moment, place.boundary, faces.boundary_second_moment);
     });
   }
 
@@ -164,7 +204,7 @@ class Assembly {
   void add_cell(Index a, Workspace& workspace, Faces& out) {
     CellSums& sums = workspace.sums;
     sums.clear();
-    for (const ConvexPolyhedron& part : workspace.cutter.cut(a)) add_part(sums, part, point(a));
+    for (const ConvexPolyhedron& part : workspace.cutter.cut(a)) add_part(sums, part, point(a), moments_);
     if (!(sums.volume > 0.0))
       throw GeometryError("the Voronoi cell of " + named(points_, a) +
                           " is empty; is it in the solid, and there only once?");
@@ -173,14 +213,22 @@ class Assembly {
               [](const MergedFace& f, const MergedFace& g) { return rank(f.tag) < rank(g.tag); });
     for (const MergedFace& face : sums.faces) {
       if (face.size < smallest) continue;
-      if (VoronoiCutter::is_side(face.tag))
+      const bool is_side = VoronoiCutter::is_side(face.tag);
+      if (is_side)
         out.boundary.push_back({a, VoronoiCutter::side_of(face.tag), face.area, point(a) + face.centroid()});
       else if (face.tag > a)
         out.interior.push_back({a, face.tag, face.area, point(a) + face.centroid()});
+      if (with_faces() && is_side) out.boundary_second_moment.push_back(face.second);
+      if (with_faces() && face.tag > a) out.interior_second_moment.push_back(face.second);
     }
-    cells_.volume[static_cast<std::size_t>(a)] = sums.volume;
-    cells_.centroid[static_cast<std::size_t>(a)] = point(a) + sums.moment / sums.volume;
+    const auto k = static_cast<std::size_t>(a);
+    const Vec3 centroid = sums.moment / sums.volume;
+    cells_.volume[k] = sums.volume;
+    cells_.centroid[k] = point(a) + centroid;
+    if (moments_ != Moments::first) cells_.second_moment[k] = sums.second - sums.volume * square(centroid);
   }
+
+  bool with_faces() const { return moments_ == Moments::second_of_faces; }
 
   /// Neighbours and sides in ascending order.
   static Index rank(Index tag) { return VoronoiCutter::is_side(tag) ? VoronoiCutter::side_of(tag) : tag; }
@@ -226,6 +274,7 @@ class Assembly {
   }
 
   std::span<const Vec3> points_;
+  Moments moments_;
   PointGrid grid_;
   parallel::Workspaces<Workspace> workspaces_;
   Cells cells_;
@@ -233,9 +282,9 @@ class Assembly {
 
 }  // namespace
 
-Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid) {
+Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid, Moments moments) {
   if (points.empty()) throw GeometryError("there are no particles to make Voronoi cells of");
-  return Assembly(points, solid).assemble();
+  return Assembly(points, solid, moments).assemble();
 }
 
 std::vector<Polyhedron> voronoi_polyhedra(std::span<const Vec3> points, const Solid& solid) {
