@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tessera/geometry/boundary.hpp"
+#include "tessera/geometry/random.hpp"
 #include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
@@ -16,19 +17,8 @@ constexpr double kOnBoundary = 1e-9;  // of the spacing: nodes closer to the bou
 constexpr double kLargestJitter = 0.49;
 constexpr double kMostNodes = 2e9;
 
-/// The finaliser of Steele, Lea and Flood's SplitMix64: spreads every bit of the argument over the result.
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
-/// A number between -1 and 1 that depends on nothing but the seed and the counter: the same on every machine.
-double uniform(std::uint64_t seed, std::uint64_t counter) {
-  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
-  const std::uint64_t bits = mix(mix(seed + golden) + golden * (counter + 1));
-  return 2.0 * (static_cast<double>(bits >> 11) * 0x1.0p-53) - 1.0;
-}
+/// A number between -1 and 1.
+double uniform(std::uint64_t seed, std::uint64_t counter) { return 2.0 * random_number(seed, counter) - 1.0; }
 
 void check(const LatticeSpec& spec, const Origin& origin, Placement placement) {
   if (spec.counts.has_value() == spec.spacing.has_value())

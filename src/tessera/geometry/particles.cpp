@@ -7,14 +7,19 @@
 
 #include "tessera/geometry/boundary.hpp"
 #include "tessera/geometry/close_pair.hpp"
+#include "tessera/geometry/crystal.hpp"
 #include "tessera/geometry/lattice.hpp"
 #include "tessera/geometry/point_file.hpp"
+#include "tessera/geometry/region.hpp"
+#include "tessera/geometry/scatter.hpp"
+#include "tessera/geometry/solid_surface.hpp"
 #include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
 namespace {
 
 constexpr double kClosest = 1e-6;  // of the mean spacing
+constexpr int kTries = 6;          // of lattices, for a number of particles
 
 std::string at(const Vec3& X) { return fmt::format("({:g}, {:g}, {:g}) m", X.x, X.y, X.z); }
 
@@ -83,39 +88,119 @@ PointSet place_lattice_in(const LatticeSpec& spec, const Origin& origin, const S
   return inside;
 }
 
+/// Those lattices that come nearest to the number of particles that is asked for.
+template <class Place>
+PointSet near_count(LatticeSpec spec, double volume, Place&& place) {
+  if (!spec.count) return place(spec);
+  const double wanted = static_cast<double>(*spec.count);
+  spec.spacing = std::cbrt(volume / wanted);
+  PointSet best;
+  for (int i = 0; i < kTries; ++i) {
+    PointSet set = place(spec);
+    const auto n = static_cast<double>(set.points.size());
+    *spec.spacing *= std::cbrt(n / wanted);
+    if (i == 0 || std::abs(n - wanted) < std::abs(static_cast<double>(best.points.size()) - wanted))
+      best = std::move(set);
+    if (n == wanted) break;
+  }
+  return best;
+}
+
+PointSet place_cubic(const LatticeSpec& lattice, const Origin& origin, const Solid& solid, Placement placement) {
+  return near_count(lattice, solid.volume, [&](LatticeSpec spec) {
+    spec.count.reset();
+    return place_lattice(spec, origin, solid, placement);
+  });
+}
+
+PointSet place_cubic(const LatticeSpec& lattice, const Origin& origin, const SurfaceIndex& index) {
+  return near_count(lattice, volume(index.surface()), [&](LatticeSpec spec) {
+    spec.count.reset();
+    return place_lattice_in(spec, origin, index);
+  });
+}
+
+/// Particles of a source that needs to know no more of the solid than its surface.
+PointSet place_in_region(const ParticleSpec& spec, const Region& region) {
+  if (const auto* lattice = std::get_if<LatticeSpec>(&spec.source))
+    return near_count(*lattice, region.size, [&](const LatticeSpec& s) {
+      return PointSet{place_crystal(s, spec.origin, region), std::nullopt};
+    });
+  if (const auto* random = std::get_if<RandomSpec>(&spec.source))
+    return {scatter_discs(*random, spec.origin, region), std::nullopt};
+  return {scatter_by_size(std::get<RelaxedSpec>(spec.source), spec.origin, region), std::nullopt};
+}
+
+/// The boundary of a solid; in two dimensions so much thicker that only its upright sides count.
+TriangleSurface boundary_of(const Solid& solid, int dimension) {
+  TriangleSurface surface = surface_of(solid);
+  if (dimension == 3) return surface;
+  const Vec3 size = solid.upper - solid.lower;
+  const double middle = 0.5 * (solid.lower.z + solid.upper.z), half = size.x + size.y;
+  for (Vec3& X : surface.vertices) X.z = X.z > middle ? middle + half : middle - half;
+  return surface;
+}
+
+bool is_cubic_lattice(const ParticleSpec& spec) {
+  const auto* lattice = std::get_if<LatticeSpec>(&spec.source);
+  return lattice != nullptr && lattice->kind == LatticeKind::cubic;
+}
+
+[[noreturn]] void refuse_mesh(const Origin& origin) {
+  throw InputError(origin, "a mesh brings its own particles, and only formulation = \"delaunay\" can use it");
+}
+
 }  // namespace
 
+double Amount::in(double size, int dimension) const {
+  if (count) return *count;
+  const double part = dimension == 2 ? *spacing * *spacing : *spacing * *spacing * *spacing;
+  return std::max(1.0, std::round(size / part));
+}
+
 PointSet place_particles(const ParticleSpec& spec, const SurfaceIndex& index) {
-  if (const auto* lattice = std::get_if<LatticeSpec>(&spec.source)) {
-    PointSet set = place_lattice_in(*lattice, spec.origin, index);
-    check_distances(set.points, volume(index.surface()), {});
-    return set;
-  }
+  if (std::holds_alternative<MeshFileSpec>(spec.source)) refuse_mesh(spec.origin);
+  const double size = volume(index.surface());
   if (const auto* source = std::get_if<PointFileSpec>(&spec.source)) {
     FilePoints file = read_points(*source, spec.origin);
     for (std::size_t p = 0; p < file.points.size(); ++p)
       if (index.location(file.points[p]) != Location::inside)
         throw GeometryError(fmt::format("{}:{}: particle {} at {} does not lie inside the surface", source->path,
                                         file.lines[p], p, at(file.points[p])));
-    check_distances(file.points, volume(index.surface()), file.lines);
+    check_distances(file.points, size, file.lines);
     return {std::move(file.points), std::nullopt};
   }
-  throw InputError(spec.origin, "a mesh brings its own particles, and only formulation = \"delaunay\" can use it");
+  PointSet set = is_cubic_lattice(spec) ? place_cubic(std::get<LatticeSpec>(spec.source), spec.origin, index)
+                                        : place_in_region(spec, {index, size});
+  check_distances(set.points, size, {});
+  return set;
 }
 
 PointSet place_particles(const ParticleSpec& spec, const Solid& solid, Placement placement) {
-  if (const auto* lattice = std::get_if<LatticeSpec>(&spec.source)) {
-    PointSet set = place_lattice(*lattice, spec.origin, solid, placement);
-    check_distances(set.points, solid.volume, {});
-    return set;
-  }
+  if (std::holds_alternative<MeshFileSpec>(spec.source)) refuse_mesh(spec.origin);
   if (const auto* source = std::get_if<PointFileSpec>(&spec.source)) {
     FilePoints file = read_points(*source, spec.origin);
     check_inside(file, source->path, solid, placement);
     check_distances(file.points, solid.volume, file.lines);
     return {std::move(file.points), std::nullopt};
   }
-  throw InputError(spec.origin, "a mesh brings its own particles, and only formulation = \"delaunay\" can use it");
+  PointSet set;
+  if (is_cubic_lattice(spec)) {
+    set = place_cubic(std::get<LatticeSpec>(spec.source), spec.origin, solid, placement);
+  } else if (placement == Placement::vertices) {
+    throw InputError(spec.origin,
+                     "formulation = \"delaunay\" takes the vertices of its tetrahedra from a cubic lattice, a file of "
+                     "points or a mesh; bcc, fcc, hcp, random and relaxed particles are centres of Voronoi cells, none "
+                     "of which lies on the boundary");
+  } else {
+    const TriangleSurface surface = boundary_of(solid, spec.dimension);
+    const SurfaceIndex index(surface);
+    const double thickness = spec.dimension == 2 ? solid.upper.z - solid.lower.z : 1.0;
+    set =
+        place_in_region(spec, {index, solid.volume / thickness, spec.dimension, 0.5 * (solid.lower.z + solid.upper.z)});
+  }
+  check_distances(set.points, solid.volume, {});
+  return set;
 }
 
 }  // namespace tessera

@@ -8,18 +8,47 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/formula.hpp"
 #include "tessera/base/index.hpp"
 #include "tessera/geometry/solid.hpp"
 #include "tessera/geometry/surface_index.hpp"
 
 namespace tessera {
 
-/// Cubic lattice over the bounding box of the solid: either counts or a spacing [m].
+enum class LatticeKind { cubic, bcc, fcc, hcp };
+
+/// Lattice over the bounding box of the solid, clipped to it. One of counts (of unit cells), spacing and count is set.
 struct LatticeSpec {
   std::optional<std::array<int, 3>> counts;
-  std::optional<double> spacing;
-  double jitter = 0.0;  // largest random move, in spacings, each direction; 0 to 0.49
+  std::optional<double> spacing;  // cube root of the volume per particle [m]
+  double jitter = 0.0;            // largest random move, in spacings, each direction; 0 to 0.49
   std::uint64_t seed = 1;
+  LatticeKind kind = LatticeKind::cubic;
+  std::optional<Index> count = {};  // of particles, as near as whole unit cells come to it
+};
+
+/// How many particles: as many as asked for, or one for spacing^3 of the volume (spacing^2 of the area in a plane).
+struct Amount {
+  std::optional<Index> count;
+  std::optional<double> spacing;  // [m]
+
+  /// Their number in a solid of this size [m3], or [m2] in two dimensions; at least one.
+  double in(double size, int dimension) const;
+};
+
+/// Random points no two of which are near each other (Poisson discs).
+struct RandomSpec {
+  Amount amount;
+  std::uint64_t seed = 1;
+};
+
+/// Points that are moved to the centroids of their Voronoi cells, again and again.
+struct RelaxedSpec {
+  Amount amount;
+  std::uint64_t seed = 1;
+  int iterations = 100;         // at most
+  double tolerance = 0.01;      // enough as root mean square of the distances to the centroids, in spacings
+  std::optional<Formula> size;  // local spacing up to a factor: only ratios count
 };
 
 /// Points from a CSV file with the header x,y,z [m].
@@ -33,8 +62,9 @@ struct MeshFileSpec {
 };
 
 struct ParticleSpec {
-  std::variant<LatticeSpec, PointFileSpec, MeshFileSpec> source;
+  std::variant<LatticeSpec, PointFileSpec, MeshFileSpec, RandomSpec, RelaxedSpec> source;
   Origin origin;
+  int dimension = 3;  // 2: irregular arrangements lie in the middle plane of a slab along z
 };
 
 /// Where a formulation wants its particles: in the centres of lattice cells (voronoi) or on the lattice's
@@ -54,9 +84,11 @@ struct PointSet {
   std::optional<Lattice> lattice;  // set for lattices only
 };
 
-/// Places particles in `solid`. The same specification gives the same points on every machine.
+/// Places particles in `solid`. The same specification gives the same points on every machine. Relaxed particles are
+/// in their first places only: relax() moves them.
 /// Throws GeometryError that names the particles and their positions when points lie outside, coincide, or
-/// are closer than 1e-6 of the mean spacing; InputError when a lattice leaves no particle in the solid.
+/// are closer than 1e-6 of the mean spacing; InputError when a lattice leaves no particle in the solid, and for
+/// vertices that are to lie otherwise than on a cubic lattice or as in a file.
 PointSet place_particles(const ParticleSpec& spec, const Solid& solid, Placement placement);
 
 /// Places the centres of Voronoi cells in the solid that a surface encloses. Of a lattice over its bounding box it

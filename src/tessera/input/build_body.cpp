@@ -46,6 +46,13 @@ Shape build_shape(const Reader& t) {
   return shape;
 }
 
+std::uint64_t seed_of(const Reader& t) { return static_cast<std::uint64_t>(t.integer("seed")); }
+
+std::optional<Index> count_of(const Reader& t) {
+  if (!t.has("count")) return std::nullopt;
+  return static_cast<Index>(t.integer("count"));
+}
+
 LatticeSpec build_lattice(const Reader& t, int dimension) {
   LatticeSpec lattice;
   lattice.spacing = t.optional_number("spacing");
@@ -57,13 +64,37 @@ LatticeSpec build_lattice(const Reader& t, int dimension) {
     lattice.counts = {static_cast<int>(n.x), static_cast<int>(n.y), static_cast<int>(n.z)};
   }
   lattice.jitter = t.number("jitter");
-  lattice.seed = static_cast<std::uint64_t>(t.integer("seed"));
+  lattice.seed = seed_of(t);
+  const std::string kind = t.text("lattice");
+  if (kind == "bcc") lattice.kind = LatticeKind::bcc;
+  if (kind == "fcc") lattice.kind = LatticeKind::fcc;
+  if (kind == "hcp") lattice.kind = LatticeKind::hcp;
+  if (lattice.kind != LatticeKind::cubic && dimension == 2)
+    throw InputError(t.origin_of("lattice"),
+                     fmt::format("\"{}\" has no plane of its own; with method.dimension = 2 take \"cubic\", or "
+                                 "arrangement = \"random\" or \"relaxed\"",
+                                 kind));
+  lattice.count = count_of(t);
   return lattice;
+}
+
+RelaxedSpec build_relaxed(const Reader& t) {
+  RelaxedSpec relaxed;
+  relaxed.amount = {count_of(t), t.optional_number("spacing")};
+  relaxed.seed = seed_of(t);
+  relaxed.iterations = static_cast<int>(t.integer("iterations"));
+  relaxed.tolerance = t.number("tolerance");
+  if (!t.has("size")) return relaxed;
+  relaxed.size = t.formula("size");
+  if (relaxed.size->depends_on_time())
+    throw InputError(t.origin_of("size"), "depends on t; expected a formula in X, Y, Z");
+  return relaxed;
 }
 
 ParticleSpec build_particles(const Reader& t, const MethodSpec& method) {
   ParticleSpec particles;
   particles.origin = t.origin();
+  particles.dimension = method.dimension;
   if (t.has("file")) {
     particles.source = PointFileSpec{t.text("file")};
     particles.origin = t.origin_of("file");
@@ -73,6 +104,12 @@ ParticleSpec build_particles(const Reader& t, const MethodSpec& method) {
                        "a mesh needs method.formulation = \"delaunay\"; voronoi takes a lattice or a file of points");
     particles.source = MeshFileSpec{t.text("mesh")};
     particles.origin = t.origin_of("mesh");
+  } else if (t.text("arrangement") == "random") {
+    particles.source = RandomSpec{{count_of(t), t.optional_number("spacing")}, seed_of(t)};
+    particles.origin = t.origin_of("arrangement");
+  } else if (t.text("arrangement") == "relaxed") {
+    particles.source = build_relaxed(t);
+    particles.origin = t.origin_of("arrangement");
   } else {
     particles.source = build_lattice(t, method.dimension);
   }

@@ -11,6 +11,7 @@
 #include "tessera/discretization/voronoi.hpp"
 #include "tessera/geometry/surface_load.hpp"
 #include "tessera/geometry/surface_sides.hpp"
+#include "tessera/simulation/relaxed_points.hpp"
 #include "tessera/tessellation/cells.hpp"
 #include "tessera/tessellation/surface_cells.hpp"
 
@@ -30,6 +31,11 @@ ParticleSpec in_plane(const BodySpec& body, const Solid& solid, Placement placem
   auto* lattice = std::get_if<LatticeSpec>(&spec.source);
   if (lattice == nullptr) return spec;
   const int layers = placement == Placement::vertices ? 2 : 1;
+  if (lattice->count) {
+    const Vec3 size = solid.upper - solid.lower;
+    lattice->spacing = std::sqrt(solid.volume / size.z / *lattice->count);
+    lattice->count.reset();
+  }
   if (lattice->spacing) {
     const Vec3 size = solid.upper - solid.lower;
     const auto count = [&](double length) {
@@ -154,7 +160,8 @@ void discretize_cells(const Case& c, const BodyCells& made, const std::vector<Bo
 BuiltBody build_voronoi(const Case& c, const BodySpec& body, const Solid& solid,
                         const std::vector<BoundaryCondition>& conditions) {
   BuiltBody b;
-  const PointSet given = points_of(c, body, solid);
+  PointSet given = points_of(c, body, solid);
+  relax_points(body, solid, given.points, b.notes);
   b.user_number = hilbert_order(given.points);
   BodyCells made{permuted(given.points, b.user_number), {}, solid.volume};
   made.cells = voronoi_cells(made.X, solid);
@@ -204,7 +211,8 @@ BuiltBody build_in_surface(const Case& c, const BodySpec& body, const SurfaceSha
   if (shape.split_angle) split_sides_at_edges(checked.surface, *shape.split_angle);
   const SurfaceIndex index(checked.surface);
   BuiltBody b;
-  const PointSet given = place_particles(body.particles, index);
+  PointSet given = place_particles(body.particles, index);
+  relax_points(body, index, given.points, b.notes);
   b.user_number = hilbert_order(given.points);
   BodyCells made{permuted(given.points, b.user_number), {}, volume(checked.surface)};
   SurfaceCells found = surface_cells(made.X, index);

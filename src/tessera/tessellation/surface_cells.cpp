@@ -20,25 +20,10 @@ namespace {
 constexpr double kRoundoffFace = 1e-14;  // of V^(2/3): faces smaller than this are round-off
 constexpr double kClosed = 1e-8;         // of the surface or volume: cells that miss more are wrong
 constexpr double kFirstFence = 2.0;      // distance of the first fence, in spacings
-constexpr double kFarAway = 10.0;        // distance of the farthest generators, in sizes of what they surround
 
 std::string named(std::span<const Vec3> points, Index a) {
   const Vec3& X = points[static_cast<std::size_t>(a)];
   return fmt::format("particle {} at ({:g}, {:g}, {:g}) m", a, X.x, X.y, X.z);
-}
-
-/// Particles, a fence around them, and a tetrahedron around all.
-std::vector<Vec3> generators_of(std::span<const Vec3> points, const TriangleSurface& surface, double distance) {
-  std::vector<Vec3> generators(points.begin(), points.end());
-  const std::vector<Vec3> fence = fence_points(surface, distance);
-  generators.insert(generators.end(), fence.begin(), fence.end());
-  Bounds box;
-  for (const Vec3& X : generators) box.include(X);
-  const Vec3 center = 0.5 * (box.lower + box.upper);
-  const double far = kFarAway * norm(box.size());
-  for (const Vec3& way : {Vec3{1, 1, 1}, Vec3{1, -1, -1}, Vec3{-1, 1, -1}, Vec3{-1, -1, 1}})
-    generators.push_back(center + far * way);
-  return generators;
 }
 
 /// A face of a cell in one part, as it is kept until all cells are cut.
@@ -110,7 +95,7 @@ class SurfaceAssembly {
 
   /// Cuts all cells within a fence; is it far enough away from the solid to take nothing of it?
   bool cut_all(double distance, double spacing) {
-    const std::vector<Vec3> generators = generators_of(points_, index_.surface(), distance);
+    const std::vector<Vec3> generators = enclosed_generators(points_, fence_points(index_.surface(), distance));
     const PointGrid grid = grid_of(generators, spacing);
     struct Tools {
       DualCellCutter cells;

@@ -10,8 +10,9 @@ namespace tessera {
 namespace {
 
 constexpr double kMostCells = 3e7;
-constexpr int kLevels = 3;        // the fence is this many cells away from those that the surface touches
-constexpr double kScatter = 0.2;  // of a cell: points in general position make fewer ties
+constexpr int kLevels = 3;         // the fence is this many cells away from those that the surface touches
+constexpr double kFarAway = 10.0;  // distance of the farthest generators, in sizes of what they surround
+constexpr double kScatter = 0.2;   // of a cell: points in general position make fewer ties
 
 using Place = std::array<std::int64_t, 3>;
 
@@ -151,6 +152,18 @@ std::vector<Vec3> fence_points(const TriangleSurface& surface, double distance) 
     points.push_back(X);
   }
   return points;
+}
+
+std::vector<Vec3> enclosed_generators(std::span<const Vec3> particles, std::span<const Vec3> fence) {
+  std::vector<Vec3> generators(particles.begin(), particles.end());
+  generators.insert(generators.end(), fence.begin(), fence.end());
+  Bounds box;
+  for (const Vec3& X : generators) box.include(X);
+  const Vec3 center = 0.5 * (box.lower + box.upper);
+  const double far = kFarAway * norm(box.size());
+  for (const Vec3& way : {Vec3{1, 1, 1}, Vec3{1, -1, -1}, Vec3{-1, 1, -1}, Vec3{-1, -1, 1}})
+    generators.push_back(center + far * way);
+  return generators;
 }
 
 }  // namespace tessera

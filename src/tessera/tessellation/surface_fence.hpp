@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tessera/base/vec3.hpp"
@@ -19,5 +20,8 @@ namespace tessera {
 /// Where `distance` [m] is so small that the grid behind it would not fit into memory, a larger one is taken. The same
 /// surface and distance give the same points.
 std::vector<Vec3> fence_points(const TriangleSurface& surface, double distance);
+
+/// Particles, the fence around them, and the corners of a tetrahedron far around all: what DualCellCutter wants.
+std::vector<Vec3> enclosed_generators(std::span<const Vec3> particles, std::span<const Vec3> fence);
 
 }  // namespace tessera

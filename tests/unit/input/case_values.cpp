@@ -128,6 +128,29 @@ TEST(Case, FillsInDefaults) {
   EXPECT_EQ(c.gravity, Vec3{});
 }
 
+TEST(Case, IrregularArrangements) {
+  const auto particles = [](const std::string& text) {
+    return sample::read(sample::with("{ lattice = \"cubic\", counts = [21, 11, 3], jitter = 0.25, seed = 7 }", text))
+        .bodies[0]
+        .particles;
+  };
+  const auto random =
+      std::get<RandomSpec>(particles("{ arrangement = \"random\", spacing = \"5 mm\", seed = 3 }").source);
+  EXPECT_EQ(*random.amount.spacing, 0.005);
+  EXPECT_EQ(random.seed, 3U);
+  const auto relaxed = std::get<RelaxedSpec>(
+      particles("{ arrangement = \"relaxed\", count = 500, size = \"1 + X\", iterations = 7, tolerance = 0.1 }")
+          .source);
+  EXPECT_EQ(*relaxed.amount.count, 500);
+  EXPECT_FALSE(relaxed.amount.spacing);
+  EXPECT_EQ(relaxed.iterations, 7);
+  EXPECT_EQ(relaxed.tolerance, 0.1);
+  EXPECT_EQ((*relaxed.size)(0.0, {2, 0, 0}), 3.0);
+  const auto lattice = std::get<LatticeSpec>(particles("{ lattice = \"hcp\", count = 500 }").source);
+  EXPECT_EQ(lattice.kind, LatticeKind::hcp);
+  EXPECT_EQ(*lattice.count, 500);
+}
+
 TEST(Case, TakesEveryKindOfShape) {
   const std::string line = "shape = { box = { min = [0, 0, 0], max = [\"1 m\", \"50 cm\", 0.1] } }";
   const Case c = sample::read(sample::with(line, R"(shape = { name = "L", difference = [
