@@ -41,7 +41,7 @@ Field<Lanes9> in_lanes(const std::vector<Mat3>& F) {
   return all;
 }
 
-BENCHMARK_KERNEL void respond(const Mat3* F, NeoHookean::Response* out, std::size_t n) {
+BENCHMARK_KERNEL void respond(const Mat3* F, ElasticResponse* out, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) out[i] = rubber.response(F[i]);
 }
 
@@ -63,7 +63,7 @@ void finish(benchmark::State& state) {
 
 void neo_hookean_scalar(benchmark::State& state) {
   const std::vector<Mat3> F = some_deformations();
-  std::vector<NeoHookean::Response> out(F.size());
+  std::vector<ElasticResponse> out(F.size());
   for (auto _ : state) {
     respond(F.data(), out.data(), F.size());
     benchmark::ClobberMemory();

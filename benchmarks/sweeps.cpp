@@ -29,7 +29,7 @@ struct SweptCube {
 
   void contact_stress_force(Index tile) {
     contact_sweep(system, tile, state.x.data(), F.data(), f.data(), scratch);
-    stress_sweep(system, tile, F.data(), nullptr, 0.0, scratch);
+    stress_sweep(system, tile, F.data(), {}, nullptr, 0.0, scratch);
     force_sweep(system, tile, scratch.T.data(), system.tiles.B.data(), system.d.B_aa.data(), f.data(), rim_f.data());
   }
 

@@ -57,4 +57,21 @@ inline Double4 log(const Double4& x) {
   return k * ln2_high - ((half_square - (s * (half_square + (even + odd)) + k * ln2_low)) - f);
 }
 
+/// Exponentials of numbers between -700 and 700, to one unit in the last place; of others the result has no meaning.
+/// With x = k ln 2 + r, |r| at most ln(2)/2, it is 2^k times the Taylor polynomial of exp(r).
+inline Double4 exp(const Double4& x) {
+  using Bits = unsigned long long __attribute__((vector_size(32)));
+  constexpr double shift = 0x1.8p52;  // adding it rounds to whole numbers, which then are the lowest bits
+  constexpr double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10;
+  const Double4 shifted = x * 1.44269504088896338700 + shift, k = shifted - shift;
+  const Double4 r = (x - k * ln2_high) - k * ln2_low;
+  constexpr double inverse_factorial[] = {1.0 / 6227020800.0, 1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0,
+                                          1.0 / 362880.0,     1.0 / 40320.0,     1.0 / 5040.0,     1.0 / 720.0,
+                                          1.0 / 120.0,        1.0 / 24.0,        1.0 / 6.0,        0.5};
+  Double4 sum = Double4{} + inverse_factorial[0];
+  for (int i = 1; i < 12; ++i) sum = sum * r + inverse_factorial[i];
+  const Double4 power = 1.0 + (r + r * r * sum);
+  return reinterpret_cast<Double4>(reinterpret_cast<Bits>(power) + (reinterpret_cast<Bits>(shifted) << 52U));
+}
+
 }  // namespace tessera

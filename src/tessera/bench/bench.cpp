@@ -123,7 +123,7 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   };
   const auto stress = [&](Index tile, TileScratch& scratch) {
     contact(tile, scratch);
-    stress_sweep(s, tile, F.data(), nullptr, 0.0, scratch);
+    stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, scratch);
   };
   const auto force = [&](Index tile, TileScratch& scratch) {
     stress(tile, scratch);

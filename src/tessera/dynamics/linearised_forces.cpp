@@ -14,9 +14,9 @@ LinearisedForces::LinearisedForces(const System& system, std::span<const double>
                                    std::span<const Vec3> walls, double L)
     : system_(system),
       mass_(mass),
-      forces_(system),
+      forces_(system, Flow::held),
       state_(state),
-      moved_{state.x, {}},
+      moved_{state.x, {}, state.plastic},
       action_{walls, {}, {}},
       amplitude_(share_of_length * L) {
   forces_.evaluate(moved_, action_, 0.0);

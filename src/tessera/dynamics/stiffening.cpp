@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "tessera/dynamics/vectors.hpp"
+#include "tessera/laws/law_lanes.hpp"
 
 namespace tessera {
 
@@ -16,23 +17,29 @@ void for_each_law(const System& s, Body&& body) {
                s.materials[static_cast<std::size_t>(r.material)].law);
 }
 
+/// The wave modulus about particle a's deformation and the history of its first stress point.
+template <class Law>
+double modulus(const Law& law, const Forces& forces, std::int64_t a) {
+  const PlasticState* history = forces.plastic().data();
+  if (history != nullptr) history += a * forces.stress_points();
+  return wave_modulus(law, to_mat3(forces.deformation_gradient()[static_cast<std::size_t>(a)]), history);
+}
+
 }  // namespace
 
-void Stiffening::remember(const Field<Columns>& F) {
+void Stiffening::remember(const Forces& forces) {
   for_each_law(system_, [&](const auto& law, Index begin, Index end) {
     parallel::for_ranges(begin, end, [&](std::int64_t first, std::int64_t last) {
-      for (auto a = static_cast<std::size_t>(first); a < static_cast<std::size_t>(last); ++a)
-        moduli_[a] = law.wave_modulus(to_mat3(F[a]));
+      for (std::int64_t a = first; a < last; ++a) moduli_[static_cast<std::size_t>(a)] = modulus(law, forces, a);
     });
   });
 }
 
-double Stiffening::growth(const Field<Columns>& F) const {
+double Stiffening::growth(const Forces& forces) const {
   Largest largest;
   for_each_law(system_, [&](const auto& law, Index begin, Index end) {
     largest += Largest{largest_of(end - begin, [&](std::int64_t i) {
-      const auto a = static_cast<std::size_t>(begin + i);
-      return law.wave_modulus(to_mat3(F[a])) / moduli_[a];
+      return modulus(law, forces, begin + i) / moduli_[static_cast<std::size_t>(begin + i)];
     })};
   });
   return largest.value;

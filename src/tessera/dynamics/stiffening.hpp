@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "tessera/mechanics/kernel_types.hpp"
-#include "tessera/mechanics/system.hpp"
+#include "tessera/mechanics/forces.hpp"
 
 namespace tessera {
 
@@ -15,9 +14,9 @@ class Stiffening {
   /// Remembers nothing yet.
   explicit Stiffening(const System& system) : system_(system), moduli_(system.mass.size()) {}
 
-  void remember(const Field<Columns>& F);
-  /// Largest ratio of the moduli about F to those remembered.
-  double growth(const Field<Columns>& F) const;
+  void remember(const Forces& forces);
+  /// Largest ratio of the moduli about the forces' deformation to those remembered.
+  double growth(const Forces& forces) const;
 
   /// The moduli remembered [Pa], which a resumed run must put back.
   const std::vector<double>& moduli() const { return moduli_; }

@@ -159,7 +159,7 @@ void StepControl::estimate_again(std::int64_t step, const State& state, std::spa
   memory_.limit = limit;
   memory_.estimated_at = step;
   memory_.growth = 1.0;
-  stiffening_->remember(forces.deformation_gradient());
+  stiffening_->remember(forces);
 }
 
 bool StepControl::watch_due(std::int64_t step, const Forces& forces) const {
@@ -169,7 +169,7 @@ bool StepControl::watch_due(std::int64_t step, const Forces& forces) const {
 
 void StepControl::watch(std::int64_t step, const Forces& forces) {
   const double before = memory_.growth;
-  memory_.growth = stiffening_->growth(forces.deformation_gradient());
+  memory_.growth = stiffening_->growth(forces);
   memory_.smallest_J = forces.sums().smallest_J;
   const double change = std::abs(memory_.growth - before);
   if (change > watchful_growth) memory_.watch_interval = std::max(memory_.watch_interval / 2, shortest_watch);
@@ -181,7 +181,7 @@ void StepControl::adapt(std::int64_t step, double time, const State& state, std:
                         const Forces& forces) {
   if (!stiffening_) return;
   const Stopwatch stopwatch(seconds_);
-  if (step == 0) stiffening_->remember(forces.deformation_gradient());  // the first estimate belongs to it
+  if (step == 0) stiffening_->remember(forces);  // the first estimate belongs to it
   if (step == 0 || watch_due(step, forces)) watch(step, forces);
   const double rest = spec_.end - time;
   if (estimate_due(step)) {

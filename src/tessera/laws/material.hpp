@@ -5,7 +5,11 @@
 #include <variant>
 
 #include "tessera/base/error.hpp"
+#include "tessera/laws/j2_plasticity.hpp"
+#include "tessera/laws/mooney_rivlin.hpp"
 #include "tessera/laws/neo_hookean.hpp"
+#include "tessera/laws/ogden.hpp"
+#include "tessera/laws/saint_venant_kirchhoff.hpp"
 
 namespace tessera {
 
@@ -30,9 +34,10 @@ struct Material {
   double density = 0.0;  // in the reference state [kg/m3]
   ContactFactors contact;
   ViscosityFactors viscosity;
-  std::variant<NeoHookean> law;
+  std::variant<NeoHookean, SaintVenantKirchhoff, MooneyRivlin, Ogden, J2Plasticity> law;
   Origin origin;
 
+  bool plastic() const { return std::holds_alternative<J2Plasticity>(law); }
   double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
   double plane_wave_modulus() const {
     return std::visit([](const auto& l) { return l.plane_wave_modulus(); }, law);

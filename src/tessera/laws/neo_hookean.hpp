@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tessera/base/mat3.hpp"
+#include "tessera/laws/principal.hpp"
 
 namespace tessera {
 
@@ -30,11 +30,7 @@ struct NeoHookean {
   }
 
   /// Energy and stress together, which share the logarithm.
-  struct Response {
-    double energy;  // [J/m3]
-    Mat3 stress;    // [Pa]
-  };
-  Response response(const Mat3& F) const {
+  ElasticResponse response(const Mat3& F) const {
     const Mat3 cof = cofactor(F);
     const double J = F(0, 0) * cof(0, 0) + F(0, 1) * cof(0, 1) + F(0, 2) * cof(0, 2);
     const double ln_J = std::log(J);

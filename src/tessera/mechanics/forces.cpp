@@ -27,12 +27,15 @@ void for_each_owner(const System& s, Index tile, Body&& body) {
 
 }  // namespace
 
-Forces::Forces(const System& system)
-    : system_(system), split_(treats_stresses_apart(system)), scratch_([this] {
+Forces::Forces(const System& system, Flow flow)
+    : system_(system),
+      split_(treats_stresses_apart(system)),
+      scratch_([this] {
         auto scratch = std::make_unique<TileScratch>(system_);
         if (split_) scratch->P.resize(scratch->T.size());
         return scratch;
-      }) {
+      }),
+      flow_(flow) {
   const auto particles = static_cast<std::size_t>(system.particles());
   const auto nodes = static_cast<std::size_t>(system.boundary_nodes());
   F_.resize(particles);
@@ -42,6 +45,7 @@ Forces::Forces(const System& system)
   rim_f_.resize(system.tiles.rim.size());
   if (system.d.direct) rim_f_direct_.resize(system.tiles.rim.size());
   if (split_) owners_P_.resize(system.owners.size());
+  if (system.plastic()) history_after_.resize(particles * static_cast<std::size_t>(system.stress_points));
   if (!system.viscosity.empty()) {
     viscous_.F_previous.resize(particles);
     viscous_.P_previous.resize(particles);
@@ -77,7 +81,8 @@ StressSums Forces::tile_forces(Index tile, const State& state, double dt) {
   const Lease scratch(scratch_);
   const Index first = tile_of(s, tile).begin;
   const double contact = contact_sweep(s, tile, state.x.data(), F_.data(), f_.data(), *scratch);
-  StressSums sums = stress_sweep(s, tile, F_.data(), s.viscosity.empty() ? nullptr : &viscous_, dt, *scratch);
+  const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
+  StressSums sums = stress_sweep(s, tile, F_.data(), history, s.viscosity.empty() ? nullptr : &viscous_, dt, *scratch);
   sums.contact = contact;
   for_each_owner(s, tile, [&](Index k, Index a) {
     Columns& T = scratch->T[static_cast<std::size_t>(a - first)];
@@ -123,7 +128,7 @@ void Forces::finish(const ExternalAction& action) {
   });
 }
 
-Forces::Internal Forces::internal(const State&) const {
+Forces::Internal Forces::internal(const State& state) const {
   const System& s = system_;
   const auto particles = static_cast<std::size_t>(s.particles());
   Internal result{Field<Columns>(particles), Field<Double4>(particles)};
@@ -137,7 +142,7 @@ Forces::Internal Forces::internal(const State&) const {
     const Lease scratch(scratch_);
     Columns* P = split() ? scratch->P.data() : scratch->T.data();
     std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
-    stress_sweep(s, tile, F_.data(), nullptr, 0.0, *scratch);
+    stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch);
     for (Index a = t.begin; a < t.end; ++a) {
       const auto k = static_cast<std::size_t>(a);
       if (!viscous_.P_previous.empty()) P[a - t.begin] = P[a - t.begin] + viscous_.P_previous[k];

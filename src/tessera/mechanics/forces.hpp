@@ -23,11 +23,18 @@ struct ExternalAction {
 /// tile; drain the boundary nodes; add up. One object is kept and reused.
 class Forces {
  public:
-  explicit Forces(const System& system);
+  explicit Forces(const System& system, Flow flow = Flow::allowed);
 
   /// Evaluates everything at the state's positions; the state's boundary nodes are filled on the way. `dt` is the time
   /// since the last evaluation, from which viscous stresses take their rate; zero: no rate is known, no viscous stress.
   void evaluate(State& state, const ExternalAction& action, double dt);
+
+  /// Makes the histories that the last evaluation has found those of the state, once it has come to stay: evaluations
+  /// on trial leave them alone. Call it once, before the state moves on.
+  void commit(State& state) { std::swap(state.plastic, history_after_); }
+  /// The histories that the last evaluation has found; empty when nothing can flow.
+  const Field<PlasticState>& plastic() const { return history_after_; }
+  Index stress_points() const { return system_.stress_points; }
 
   const Field<Double4>& total() const { return f_; }  // [N], reactions on constrained particles left out
   const Field<Columns>& deformation_gradient() const { return F_; }
@@ -65,6 +72,8 @@ class Forces {
   mutable parallel::Workspaces<TileScratch> scratch_;
   std::vector<Vec3> reactions_;
   ViscousMemory viscous_;
+  Flow flow_;
+  Field<PlasticState> history_after_;
   StressSums sums_;
 };
 

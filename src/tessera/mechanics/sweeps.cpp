@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tessera/laws/neo_hookean_lanes.hpp"
+#include "tessera/laws/law_lanes.hpp"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -221,7 +221,7 @@ inline Lanes9 to_lanes(const Columns& a, const Columns& b, const Columns& c, con
 }
 
 /// Tensor k of four.
-inline Columns tensor_of(const Lanes9& t, int k) {
+inline Columns columns_of(const Lanes9& t, int k) {
   return {Double4{t.xx[k], t.yx[k], t.zx[k], 0.0}, Double4{t.xy[k], t.yy[k], t.zy[k], 0.0},
           Double4{t.xz[k], t.yz[k], t.zz[k], 0.0}};
 }
@@ -239,8 +239,8 @@ inline double add_viscous_stress(const System& s, Index a, const Columns& F, Vis
 }
 
 template <class Law>
-inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, const Columns* F, ViscousMemory* viscous,
-                            double dt, TileScratch& scratch) {
+inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, const Columns* F,
+                            const HistorySpan& history, ViscousMemory* viscous, double dt, TileScratch& scratch) {
   const double* volume = s.d.volume.data();
   Columns* __restrict T = scratch.T.data();
   StressSums sums;
@@ -250,13 +250,15 @@ inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, c
   for (Index first = tile.begin; first < tile.end; first += 4) {
     const Index lanes = std::min<Index>(4, tile.end - first);
     const auto at = [&](Index lane) { return first + std::min(lane, lanes - 1); };
-    const auto response_4 = response(law, to_lanes(F[at(0)], F[at(1)], F[at(2)], F[at(3)]));
+    const LanesResponse response_4 =
+        response(law, to_lanes(F[at(0)], F[at(1)], F[at(2)], F[at(3)]), history.lanes({at(0), at(1), at(2), at(3)}));
     smallest_J = smallest_J < response_4.J ? smallest_J : response_4.J;
     not_finite += response_4.J - response_4.J;
     for (Index lane = 0; lane < lanes; ++lane) {
       const Index a = first + lane, local = a - tile.begin;
       sums.internal += volume[a] * response_4.energy[lane];
-      Columns P = tensor_of(response_4.stress, lane);
+      if constexpr (HasHistory<Law>) sums.dissipated += volume[a] * response_4.dissipated[lane];
+      Columns P = columns_of(response_4.stress, lane);
       if (viscous != nullptr && dt > 0.0) sums.dissipated += add_viscous_stress(s, a, F[a], *viscous, dt, P);
       if (scratch.P.empty())
         T[local] = T[local] + P;
@@ -269,18 +271,34 @@ inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, c
   return sums;
 }
 
-TESSERA_KERNEL StressSums neo_hookean_sweep(const System& s, const Tile& tile, const NeoHookean& law, const Columns* F,
-                                            ViscousMemory* viscous, double dt, TileScratch& scratch) {
-  return stress_of(s, tile, law, F, viscous, dt, scratch);
-}
+// One clone of each law for every instruction set.
+#define TESSERA_STRESS_KERNEL(Law)                                                                             \
+  TESSERA_KERNEL StressSums stress_kernel(const System& s, const Tile& tile, const Law& law, const Columns* F, \
+                                          const HistorySpan& history, ViscousMemory* viscous, double dt,       \
+                                          TileScratch& scratch) {                                              \
+    return stress_of(s, tile, law, F, history, viscous, dt, scratch);                                          \
+  }
+TESSERA_STRESS_KERNEL(NeoHookean)
+TESSERA_STRESS_KERNEL(SaintVenantKirchhoff)
+TESSERA_STRESS_KERNEL(MooneyRivlin)
+TESSERA_STRESS_KERNEL(Ogden)
+TESSERA_STRESS_KERNEL(J2Plasticity)
+#undef TESSERA_STRESS_KERNEL
 
 }  // namespace
 
-StressSums stress_sweep(const System& s, Index k, const Columns* F, ViscousMemory* viscous, double dt,
-                        TileScratch& scratch) {
+StressSums stress_sweep(const System& s, Index k, const Columns* F, const HistorySpan& history, ViscousMemory* viscous,
+                        double dt, TileScratch& scratch) {
   const Tile& tile = tile_of(s, k);
-  const Material& m = s.materials[static_cast<std::size_t>(tile.material)];
-  return std::visit([&](const auto& law) { return neo_hookean_sweep(s, tile, law, F, viscous, dt, scratch); }, m.law);
+  const auto sweep = [&](const auto& law) { return stress_kernel(s, tile, law, F, history, viscous, dt, scratch); };
+  return std::visit(
+      [&](const auto& law) {
+        if constexpr (requires { law.held(); })
+          return sweep(history.flow == Flow::held ? law.held() : law);
+        else
+          return sweep(law);
+      },
+      s.materials[static_cast<std::size_t>(tile.material)].law);
 }
 
 TESSERA_KERNEL void force_sweep(const System& s, Index k, const Columns* T, const Vec3* B, const Vec3* B_aa, Double4* f,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <limits>
 
+#include "tessera/laws/lanes_response.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
 #include "tessera/mechanics/system.hpp"
 
@@ -11,7 +13,7 @@ namespace tessera {
 struct StressSums {
   double internal = 0.0;    // sum V_a U(F_a) [J]
   double contact = 0.0;     // sum of the bonds' energies [J]
-  double dissipated = 0.0;  // viscous work since the last evaluation [J]
+  double dissipated = 0.0;  // viscous work since the last evaluation, and by plastic flow since the history [J]
   double smallest_J = std::numeric_limits<double>::infinity();
   bool finite = true;  // no J was NaN
 
@@ -22,6 +24,27 @@ struct StressSums {
 struct ViscousMemory {
   Field<Columns> F_previous;  // F_a one step ago
   Field<Columns> P_previous;  // viscous stress one step ago [Pa]
+};
+
+/// May the solid flow, or does it answer elastically about what has flowed before?
+enum class Flow { allowed, held };
+
+/// The histories of all stress points, before and after the present deformation: null where no material has any.
+/// `after` is also null where nothing is to be kept.
+struct HistorySpan {
+  const PlasticState* before = nullptr;
+  PlasticState* after = nullptr;
+  Flow flow = Flow::allowed;
+
+  /// Those of four stress points.
+  LanesHistory lanes(std::array<Offset, 4> points) const {
+    LanesHistory four;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (before != nullptr) four.before[k] = before + points[k];
+      if (after != nullptr) four.after[k] = after + points[k];
+    }
+    return four;
+  }
 };
 
 /// What is known of one particle while a tile is worked on.
@@ -50,8 +73,8 @@ double contact_sweep(const System& s, Index tile, const Double4* x, const Column
 /// Sweep 2, second half: the elastic and viscous stress P(F_a) of the tile's own particles, added to T or, where the
 /// scratch has room for P, put there. `dt` is the time since the last evaluation (viscosity), zero at the first one;
 /// `viscous` is null without viscosity.
-StressSums stress_sweep(const System& s, Index tile, const Columns* F, ViscousMemory* viscous, double dt,
-                        TileScratch& scratch);
+StressSums stress_sweep(const System& s, Index tile, const Columns* F, const HistorySpan& history,
+                        ViscousMemory* viscous, double dt, TileScratch& scratch);
 
 /// Sweep 3: what the tile's own particles do by their stress T, f_b -= T_a B_ab and f_a -= T_a B_aa, [D 45], [V 41]:
 /// to each other in `f`, to the rim in `rim_f`, which is set.

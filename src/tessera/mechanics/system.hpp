@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "tessera/base/csr.hpp"
@@ -49,8 +50,13 @@ struct System {
   Csr<ReturnTerm> returned_to_node;  // the same for nodes that other nodes follow: one row per boundary node
 
   std::vector<ViscosityLaw> viscosity;  // per particle; empty when no material is viscous
+  Index stress_points = 1;              // of each particle: where laws are evaluated
 
   Index particles() const { return d.particles(); }
+  /// Some material keeps a history.
+  bool plastic() const {
+    return std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.plastic(); });
+  }
   Index boundary_nodes() const { return static_cast<Index>(d.nodes.size()); }
 };
 

@@ -29,7 +29,7 @@ using S = Snapshot;
 using enum Exactness;
 using enum Variation;
 
-const std::array<Quantity, 20> table = {{
+const std::array<Quantity, 21> table = {{
     {"reference_position", "m", "Position in the undeformed state.", Quantity::Vector(stored<&S::reference_position>),
      full, constant},
     {"position", "m", "Current position.", Quantity::Vector(stored<&S::position>), full},
@@ -51,6 +51,7 @@ const std::array<Quantity, 20> table = {{
     {"J", "-", "Ratio of current to reference volume, det F.", Quantity::Scalar(volume_ratio), full},
     {"mass", "kg", "Mass of the particle.", Quantity::Scalar(stored<&S::mass>), full, constant},
     {"energy_density", "J/m3", "Strain energy per reference volume.", Quantity::Scalar(stored<&S::energy_density>)},
+    {"plastic_strain", "-", "Equivalent plastic strain.", Quantity::Scalar(stored<&S::plastic_strain>)},
     {"body", "-", "Number of the body, in the order of the case file.", Quantity::Integer(stored<&S::body>), full,
      constant},
     {"material", "-", "Number of the material, in the order of the case file.", Quantity::Integer(stored<&S::material>),

@@ -34,7 +34,8 @@ SnapshotSource parts_of(const Snapshot& all) {
                             .first_piola_kirchhoff = cut(all.first_piola_kirchhoff),
                             .volume = cut(all.volume),
                             .mass = cut(all.mass),
-                            .energy_density = cut(all.energy_density)};
+                            .energy_density = cut(all.energy_density),
+                            .plastic_strain = cut(all.plastic_strain)};
           }};
 }
 

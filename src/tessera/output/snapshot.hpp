@@ -31,6 +31,7 @@ struct Snapshot {
   std::vector<double> volume;               // V_a, reference [m3]
   std::vector<double> mass;                 // [kg]
   std::vector<double> energy_density;       // U(F_a) [J/m3]
+  std::vector<double> plastic_strain;       // equivalent; zero where nothing flows
 };
 
 /// A state of which snapshots can be taken piece by piece, so that the whole need not be held at once.
@@ -51,7 +52,7 @@ struct EnergyLedger {
   double internal = 0.0;
   double contact = 0.0;
   double external_work = 0.0;    // of tractions, gravity and prescribed motion, since the start
-  double dissipated = 0.0;       // by viscosity and damping, since the start
+  double dissipated = 0.0;       // by viscosity, damping and plastic flow, since the start
   double initial = 0.0;          // kinetic + internal + contact at the start
   double scale = 0.0;            // largest energy seen so far, the measure for the relative error
   double largest_contact = 0.0;  // seen so far

@@ -87,6 +87,7 @@ void Engine::prepare() {
 }
 
 void Engine::advance() {
+  forces_.commit(state_);
   leapfrog_.step(state_, forces_, dt_);
   ++step_;
   const double rest = spec_.end - time_;

@@ -46,6 +46,26 @@ std::vector<Vec3> positions(const std::vector<double>& values) {
   return v;
 }
 
+std::vector<double> flat(const Field<PlasticState>& histories) {
+  std::vector<double> values;
+  values.reserve(7 * histories.size());
+  for (const PlasticState& h : histories) {
+    values.insert(values.end(), h.Cp_inverse.begin(), h.Cp_inverse.end());
+    values.push_back(h.strain);
+  }
+  return values;
+}
+
+Field<PlasticState> histories(const std::vector<double>& values) {
+  Field<PlasticState> h;
+  for (std::size_t i = 0; i + 6 < values.size(); i += 7) {
+    h.emplace_back();
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i), 6, h.back().Cp_inverse.begin());
+    h.back().strain = values[i + 6];
+  }
+  return h;
+}
+
 Field<Columns> tensors(const std::vector<double>& values) {
   Field<Columns> t;
   for (std::size_t i = 0; i + 8 < values.size(); i += 9) {
@@ -67,6 +87,7 @@ Checkpoint Engine::checkpoint() const {
   c.arrays["reference"] = flat(model_.system.d.X);
   c.arrays["position"] = flat(state_.x.data(), n);
   c.arrays["velocity"] = flat(state_.v.data(), n);
+  c.arrays["plastic"] = flat(state_.plastic);
   c.arrays["initial_position"] = flat(x0_.data(), x0_.size());
   c.arrays["time"] = {time_, dt_.before, dt_.after, model_.loads.motion.time()};
   c.arrays["step_control"] = {step.dt, step.limit, step.growth, step.smallest_J};
@@ -103,6 +124,7 @@ void Engine::restore(const Checkpoint& c) {
   const Field<Double4> x = vectors(c.array("position", 3 * n));
   std::copy(x.begin(), x.end(), state_.x.begin());
   state_.v = vectors(c.array("velocity", 3 * n));
+  state_.plastic = histories(c.array("plastic", 7 * state_.plastic.size()));
   x0_ = vectors(c.array("initial_position", 3 * x0_.size()));
   time_ = time[0];
   dt_ = {time[1], time[2]};

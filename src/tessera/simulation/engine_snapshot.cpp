@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "tessera/laws/law_lanes.hpp"
 #include "tessera/parallel/parallel.hpp"
 #include "tessera/simulation/engine.hpp"
 
@@ -11,12 +12,21 @@ namespace {
 Snapshot sized(std::size_t n) {
   Snapshot shot;
   for (auto* indices : {&shot.body, &shot.material}) indices->resize(n);
-  for (auto* scalars : {&shot.volume, &shot.mass, &shot.energy_density}) scalars->resize(n);
+  for (auto* scalars : {&shot.volume, &shot.mass, &shot.energy_density, &shot.plastic_strain}) scalars->resize(n);
   for (auto* tensors : {&shot.deformation_gradient, &shot.first_piola_kirchhoff}) tensors->resize(n);
   for (auto* vectors : {&shot.reference_position, &shot.position, &shot.velocity, &shot.force, &shot.internal_force,
                         &shot.contact_force, &shot.external_force})
     vectors->resize(n);
   return shot;
+}
+
+/// Equivalent plastic strain of particle a, the mean over its stress points.
+double mean_plastic_strain(const Forces& forces, std::size_t a) {
+  if (forces.plastic().empty()) return 0.0;
+  const auto points = static_cast<std::size_t>(forces.stress_points());
+  double sum = 0.0;
+  for (std::size_t q = 0; q < points; ++q) sum += forces.plastic()[a * points + q].strain;
+  return sum / static_cast<double>(points);
 }
 
 /// Entry a, or nothing where there are no entries at all.
@@ -55,6 +65,7 @@ Snapshot Engine::snapshot_of(const Observation& seen, Index begin, Index end) co
   shot.time = time_;
   shot.step = step_;
   shot.first = begin;
+  const auto points = static_cast<std::size_t>(s.stress_points);
   parallel::for_each(end - begin, [&](std::int64_t i) {
     const auto u = static_cast<std::size_t>(i);
     const auto a = static_cast<std::size_t>(seen.particle[static_cast<std::size_t>(begin + i)]);
@@ -76,8 +87,10 @@ Snapshot Engine::snapshot_of(const Observation& seen, Index begin, Index end) co
     shot.first_piola_kirchhoff[u] = to_mat3(seen.internal.P[a]);
     shot.volume[u] = s.d.volume[a];
     shot.mass[u] = moved;
-    shot.energy_density[u] =
-        std::visit([&](const auto& law) { return law.energy(shot.deformation_gradient[u]); }, m.law);
+    const PlasticState* history = state_.plastic.empty() ? nullptr : &state_.plastic[a * points];
+    shot.energy_density[u] = std::visit(
+        [&](const auto& law) { return tessera::stored_energy(law, shot.deformation_gradient[u], history); }, m.law);
+    shot.plastic_strain[u] = mean_plastic_strain(forces_, a);
   });
   return shot;
 }

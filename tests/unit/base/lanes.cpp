@@ -24,6 +24,20 @@ TEST(Lanes, LogarithmIsExactToOneUnitInTheLastPlace) {
   }
 }
 
+TEST(Lanes, ExponentialIsExactToOneUnitInTheLastPlace) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> near_zero(-1.0, 1.0), far(-700.0, 700.0);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = i % 2 == 0 ? near_zero(random) : far(random);
+    const Double4 power = exp(four(x, 1e-9 * x, 0.1 * x, 0.0));
+    for (int k = 0; k < 3; ++k) {
+      const double exact = std::exp((k == 0 ? 1.0 : (k == 1 ? 1e-9 : 0.1)) * x);
+      EXPECT_LE(std::abs(power[k] - exact), std::nextafter(exact, 1e308) - exact) << x;
+    }
+    EXPECT_EQ(power[3], 1.0);
+  }
+}
+
 TEST(Lanes, TransposesAndAddsFourVectors) {
   const Double4 a = four(1, 2, 3, 9), b = four(4, 5, 6, 9), c = four(7, 8, 9, 9), d = four(10, 11, 12, 9);
   const Lanes3 l = transposed(a, b, c, d);

@@ -4,7 +4,8 @@
 #include <random>
 
 #include "tessera/laws/bond_law.hpp"
-#include "tessera/laws/neo_hookean_lanes.hpp"
+#include "tessera/laws/law_lanes.hpp"
+#include "tessera/laws/material.hpp"
 #include "tessera/laws/viscosity.hpp"
 
 namespace tessera {
@@ -20,6 +21,28 @@ template <>
 std::vector<NeoHookean> samples<NeoHookean>() {
   return {NeoHookean::from_young_poisson(1e6, 0.3), NeoHookean::from_young_poisson(1e6, 0.49),
           NeoHookean::from_young_poisson(1e6, 0.0), NeoHookean::from_young_poisson(1e6, -0.4)};
+}
+
+template <>
+std::vector<SaintVenantKirchhoff> samples<SaintVenantKirchhoff>() {
+  return {SaintVenantKirchhoff::from_young_poisson(1e6, 0.3), SaintVenantKirchhoff::from_young_poisson(1e6, 0.0)};
+}
+
+template <>
+std::vector<MooneyRivlin> samples<MooneyRivlin>() {
+  return {{2e5, 1e5, {1e6}}, {3e5, 0.0, {1e7}}};
+}
+
+template <>
+std::vector<Ogden> samples<Ogden>() {
+  // The second are Ogden's numbers for rubber, ten times stiffer and less bulky.
+  return {{{{4e5, 2.0}}, {1e6}}, {{{6.3e5 * 10, 1.3}, {0.012e5 * 10, 5.0}, {-0.1e5 * 10, -2.0}}, {2e7}}};
+}
+
+template <>
+std::vector<J2Plasticity> samples<J2Plasticity>() {
+  return {J2Plasticity::from_young_poisson(1e6, 0.3, 1e4, 1e5), J2Plasticity::from_young_poisson(1e6, 0.45, 5e3, 0.0),
+          J2Plasticity::from_young_poisson(1e6, 0.3, 1e9, 0.0)};
 }
 
 template <std::size_t... I>
@@ -206,29 +229,46 @@ TEST(Viscosity, DissipatesAndIsObjective) {
   }
 }
 
+/// Histories of four points that have flowed already.
+std::array<PlasticState, 4> some_histories(const Law& law) {
+  std::array<PlasticState, 4> histories{};
+  if (const auto* j2 = std::get_if<J2Plasticity>(&law))
+    for (std::size_t k = 0; k < 4; ++k) histories[k] = j2->response(deformations()[2 + 3 * k], {}).after;
+  return histories;
+}
+
 /// Four deformations at once give what one at a time does.
 TEST(Lanes, AgreeWithOneAtATime) {
   const std::vector<Mat3> all = deformations();
-  for (const NeoHookean& law : samples<NeoHookean>())
-    for (std::size_t i = 0; i + 4 <= all.size(); ++i) {
-      Lanes9 F;
-      Double4* const lanes[9] = {&F.xx, &F.xy, &F.xz, &F.yx, &F.yy, &F.yz, &F.zx, &F.zy, &F.zz};
-      for (int k = 0; k < 4; ++k)
-        for (int c = 0; c < 9; ++c)
-          (*lanes[c])[k] = all[i + static_cast<std::size_t>(k)].m[static_cast<std::size_t>(c)];
-      const LanesResponse r = response(law, F);
-      const Double4* const stress[9] = {&r.stress.xx, &r.stress.xy, &r.stress.xz, &r.stress.yx, &r.stress.yy,
-                                        &r.stress.yz, &r.stress.zx, &r.stress.zy, &r.stress.zz};
-      for (int k = 0; k < 4; ++k) {
-        const Mat3& F_k = all[i + static_cast<std::size_t>(k)];
-        const NeoHookean::Response expected = law.response(F_k);
-        EXPECT_NEAR(r.energy[k], expected.energy, 1e-13 * law.mu);
-        EXPECT_NEAR(r.J[k], determinant(F_k), 1e-14);
-        for (int c = 0; c < 9; ++c)
-          EXPECT_NEAR((*stress[c])[k], expected.stress.m[static_cast<std::size_t>(c)],
-                      1e-13 * size_of(expected.stress) + 1e-13 * law.mu);
-      }
-    }
+  for (const Law& any : all_laws()) {
+    const std::array<PlasticState, 4> before = some_histories(any);
+    std::array<PlasticState, 4> after{}, expected_after{};
+    for (std::size_t i = 0; i + 4 <= all.size(); ++i)
+      std::visit(
+          [&](const auto& law) {
+            Lanes9 F, P;
+            LanesHistory history;
+            for (std::size_t k = 0; k < 4; ++k) {
+              set_tensor(F, static_cast<int>(k), all[i + k]);
+              history.before[k] = &before[k];
+              history.after[k] = &after[k];
+            }
+            const LanesResponse r = response(law, F, history);
+            const LanesResponse expected = one_by_one(
+                law, F,
+                {history.before, {&expected_after[0], &expected_after[1], &expected_after[2], &expected_after[3]}});
+            const double modulus = law.plane_wave_modulus();
+            for (int k = 0; k < 4; ++k) {
+              const Mat3 stress = tensor_of(expected.stress, k);
+              EXPECT_NEAR(r.energy[k], expected.energy[k], 1e-13 * (modulus + expected.energy[k]));
+              EXPECT_EQ(r.dissipated[k], expected.dissipated[k]);
+              EXPECT_NEAR(r.J[k], expected.J[k], 1e-14);
+              EXPECT_LT(size_of(tensor_of(r.stress, k) - stress), 1e-13 * (size_of(stress) + modulus));
+            }
+            EXPECT_EQ(after, expected_after);
+          },
+          any);
+  }
 }
 
 /// rho c^2 of waves a (x) N by differences of the stress: none is above the bound, and the fastest of a uniaxial strain
@@ -246,8 +286,10 @@ TEST(WaveModulus, IsABoundOfAllPlaneWaves) {
     const auto bound = [&](const Mat3& F) { return std::visit([&](const auto& l) { return l.wave_modulus(F); }, law); };
     for (const Mat3& F : deformations())
       for (int i = 0; i < 50; ++i) EXPECT_LT(modulus(law, F, direction(), direction()), bound(F) * (1.0 + 1e-6));
-    for (const Mat3& F : {identity(), diagonal(1, 0.5, 1)})
+    EXPECT_NEAR(modulus(law, identity(), {0, 1, 0}, {0, 1, 0}) / bound(identity()), 1.0, 1e-6);
+    if (const Mat3 F = diagonal(1, 0.5, 1); std::holds_alternative<NeoHookean>(law)) {
       EXPECT_NEAR(modulus(law, F, {0, 1, 0}, {0, 1, 0}) / bound(F), 1.0, 1e-6);
+    }
   }
 }
 

@@ -30,6 +30,7 @@ Snapshot many_particles(std::size_t n, double time) {
     s.volume.push_back(0.1 + 1e-6 * p);
     s.mass.push_back(100.0 + p);
     s.energy_density.push_back(p);
+    s.plastic_strain.push_back(p);
   }
   return s;
 }

@@ -38,6 +38,7 @@ inline Snapshot snapshot(double time = 0.0) {
     s.volume.push_back(0.125);
     s.mass.push_back(100.0 + i);
     s.energy_density.push_back(1000.0 * i);
+    s.plastic_strain.push_back(0.01 * i);
   }
   return s;
 }

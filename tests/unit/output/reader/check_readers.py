@@ -24,7 +24,7 @@ X = np.array([[0.25 + 0.5 * (i & 1), 0.25 + 0.5 * (i >> 1 & 1), 0.25 + 0.5 * (i 
 COMPONENTS = {
     "reference_position": 3, "position": 3, "displacement": 3, "velocity": 3, "force": 3, "internal_force": 3,
     "contact_force": 3, "external_force": 3, "deformation_gradient": 9, "first_piola_kirchhoff": 9,
-    "cauchy_stress": 9, "von_mises": 1, "pressure": 1, "volume": 1, "J": 1, "mass": 1, "energy_density": 1,
+    "cauchy_stress": 9, "von_mises": 1, "pressure": 1, "volume": 1, "J": 1, "mass": 1, "energy_density": 1, "plastic_strain": 1, "plastic_strain": 1,
     "body": 1, "material": 1, "particle_id": 1,
 }
 

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "tessera/laws/j2_plasticity.hpp"
+#include "tessera/laws/mooney_rivlin_lanes.hpp"
+#include "tessera/laws/neo_hookean_lanes.hpp"
+#include "tessera/laws/saint_venant_kirchhoff_lanes.hpp"
+
+namespace tessera {
+
+/// A law whose answer depends on what has happened to the stress point.
+template <class Law>
+concept HasHistory = requires(const Law& law, const Mat3& F, const PlasticState& before) {
+  law.response(F, before);
+};
+
+/// Law::response() of four deformations, one after the other: for laws that have no form for four at once.
+template <class Law>
+inline LanesResponse one_by_one(const Law& law, const Lanes9& F, const LanesHistory& history) {
+  LanesResponse all{};
+  for (int k = 0; k < 4; ++k) {
+    const Mat3 F_k = tensor_of(F, k);
+    const auto i = static_cast<std::size_t>(k);
+    all.J[k] = determinant(F_k);
+    if constexpr (HasHistory<Law>) {
+      const auto answer = law.response(F_k, *history.before[i]);
+      all.energy[k] = answer.energy;
+      all.dissipated[k] = answer.dissipated;
+      set_tensor(all.stress, k, answer.stress);
+      if (history.after[i] != nullptr) *history.after[i] = answer.after;
+    } else {
+      const auto answer = law.response(F_k);
+      all.energy[k] = answer.energy;
+      set_tensor(all.stress, k, answer.stress);
+    }
+  }
+  return all;
+}
+
+/// Any law's answer to four deformations at once. Where J is not positive energy and stress have no meaning.
+template <class Law>
+inline LanesResponse response(const Law& law, const Lanes9& F, const LanesHistory& history) {
+  if constexpr (requires { response(law, F); })
+    return response(law, F);
+  else
+    return one_by_one(law, F, history);
+}
+
+/// Bound of rho c^2 over all plane waves about F [Pa], of a law with or without history; flow is held.
+template <class Law>
+inline double wave_modulus(const Law& law, const Mat3& F, const PlasticState* history) {
+  if constexpr (HasHistory<Law>)
+    return law.wave_modulus(F, *history);
+  else
+    return law.wave_modulus(F);
+}
+
+/// Stored energy per reference volume [J/m3] of a law with or without history.
+template <class Law>
+inline double stored_energy(const Law& law, const Mat3& F, const PlasticState* history) {
+  if constexpr (HasHistory<Law>)
+    return law.response(F, *history).energy;
+  else
+    return law.energy(F);
+}
+
+}  // namespace tessera
