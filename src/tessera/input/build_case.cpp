@@ -28,14 +28,12 @@ Material build_material(const Reader& t) {
   Material m;
   m.name = t.text("name");
   m.model = t.text("model");
-  m.young = t.number("young");
-  m.poisson = t.number("poisson");
   m.density = t.number("density");
   m.contact = {t.table("contact").number("normal"), t.table("contact").number("tangential")};
   m.viscosity = {t.table("viscosity").number("linear"), t.table("viscosity").number("quadratic")};
   m.origin = t.origin();
   for (const MaterialModel& model : material_models())
-    if (m.model == model.name) model.set_law(m);
+    if (m.model == model.name) model.set_law(m, t);
   return m;
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "tessera/input/material_models.hpp"
 #include "tessera/input/parameter_rows.hpp"
 
@@ -165,6 +167,18 @@ Rows body_rows() {
 
 namespace {
 
+// Models that Young's modulus and Poisson's ratio describe.
+std::vector<std::string> of_young() {
+  return {"model=neo-hookean", "model=saint-venant-kirchhoff", "model=j2-plasticity"};
+}
+
+std::string models_in_words() {
+  std::string text = "The law:";
+  for (const MaterialModel& m : material_models())
+    text += fmt::format("{} {}, {}", &m == material_models().data() ? "" : ";", m.name, m.sentence);
+  return text + ".";
+}
+
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
   for (const MaterialModel& m : material_models()) names.emplace_back(m.name);
@@ -185,18 +199,65 @@ Rows material_rows() {
        .presence = defaulted,
        .choices = model_names(),
        .standard = "\"neo-hookean\"",
-       .sentence = "The law of elasticity: " + std::string(material_models()[0].sentence) + "."},
+       .sentence = models_in_words()},
       {.key = "material.young",
        .kind = number,
        .presence = required,
        .dimension = dimension::pressure,
        .range = above(0),
+       .only_with = of_young(),
        .sentence = "Young's modulus at rest."},
       {.key = "material.poisson",
        .kind = number,
        .presence = required,
        .range = inside(-1, 0.5),
+       .only_with = of_young(),
        .sentence = "Poisson's ratio at rest."},
+      {.key = "material.yield_stress",
+       .kind = number,
+       .presence = required,
+       .dimension = dimension::pressure,
+       .range = above(0),
+       .only_with = {"model=j2-plasticity"},
+       .sentence = "Yield stress of the undeformed solid, for the Kirchhoff stress."},
+      {.key = "material.hardening",
+       .kind = number,
+       .presence = defaulted,
+       .dimension = dimension::pressure,
+       .range = at_least(0),
+       .standard = "0",
+       .only_with = {"model=j2-plasticity"},
+       .sentence = "Growth of the yield stress with the equivalent plastic strain."},
+      {.key = "material.bulk",
+       .kind = number,
+       .presence = required,
+       .dimension = dimension::pressure,
+       .range = above(0),
+       .only_with = {"model=mooney-rivlin", "model=ogden"},
+       .sentence = "Bulk modulus K at rest."},
+      {.key = "material.c10",
+       .kind = number,
+       .presence = required,
+       .dimension = dimension::pressure,
+       .only_with = {"model=mooney-rivlin"},
+       .sentence = "Factor of the first invariant; the shear modulus at rest is 2 (c10 + c01)."},
+      {.key = "material.c01",
+       .kind = number,
+       .presence = required,
+       .dimension = dimension::pressure,
+       .only_with = {"model=mooney-rivlin"},
+       .sentence = "Factor of the second invariant."},
+      {.key = "material.terms",
+       .kind = tables,
+       .presence = required,
+       .only_with = {"model=ogden"},
+       .sentence = "Terms of the energy, any number; the shear modulus at rest is half the sum of mu alpha."},
+      {.key = "material.terms.mu",
+       .kind = number,
+       .presence = required,
+       .dimension = dimension::pressure,
+       .sentence = "Factor of the term."},
+      {.key = "material.terms.alpha", .kind = number, .presence = required, .sentence = "Exponent of the term, not 0."},
       {.key = "material.density",
        .kind = number,
        .presence = required,
