@@ -38,7 +38,10 @@ double largest(const double* values, int n) { return *std::max_element(values, v
 double power(double x, double y) { return std::pow(x, y); }
 double angle(double y, double x) { return std::atan2(y, x); }
 
-std::vector<std::string> variable_names() { return {"t", "X", "Y", "Z", "pi"}; }
+std::vector<std::string> variable_names(FormulaNames names) {
+  if (names == FormulaNames::face) return {"t", "X", "Y", "Z", "nx", "ny", "nz", "pi"};
+  return {"t", "X", "Y", "Z", "pi"};
+}
 
 std::vector<std::string> function_names() {
   std::vector<std::string> names = {"min", "max", "pow", "atan2"};
@@ -78,10 +81,10 @@ std::size_t end_of_number(const std::string& text, std::size_t i) {
   return std::max(i + 1, static_cast<std::size_t>(end - text.c_str()));
 }
 
-void check_name(const std::string& text, const Origin& origin, std::size_t begin, std::size_t end) {
+void check_name(const std::string& text, const Origin& origin, FormulaNames known, std::size_t begin, std::size_t end) {
   const std::string name = text.substr(begin, end - begin);
   const int position = static_cast<int>(begin);
-  const auto variables = variable_names();
+  const auto variables = variable_names(known);
   if (std::find(variables.begin(), variables.end(), name) != variables.end()) return;
   const auto calls = function_names();
   if (std::find(calls.begin(), calls.end(), name) == calls.end()) {
@@ -97,14 +100,14 @@ void check_name(const std::string& text, const Origin& origin, std::size_t begin
 }
 
 // Names are checked before parsing, because the parser says less about them.
-void check_names(const std::string& text, const Origin& origin) {
+void check_names(const std::string& text, const Origin& origin, FormulaNames known) {
   for (std::size_t i = 0; i < text.size();) {
     const bool number = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
     std::size_t end = i + 1;
     if (number) end = end_of_number(text, i);
     if (starts_name(text[i])) {
       while (end < text.size() && continues_name(text[end])) ++end;
-      check_name(text, origin, i, end);
+      check_name(text, origin, known, i, end);
     }
     i = end;
   }
@@ -142,16 +145,18 @@ std::string explain(const mu::ParserError& error, const std::string& text) {
 struct Formula::Impl {
   std::string text;
   Origin origin;
+  FormulaNames names = FormulaNames::point;
   double value = 0.0;  // of a constant
   bool uses_time = false;
   bool uses_position = false;
   mutable double t = 0.0;
-  mutable Vec3 X;
+  mutable Vec3 X, N;
   mu::Parser parser;
 
   explicit Impl(double constant) : text(fmt::format("{}", constant)), value(constant) {}
 
-  Impl(const std::string& formula, const Origin& where) : text(formula), origin(where) {
+  Impl(const std::string& formula, const Origin& where, FormulaNames known)
+      : text(formula), origin(where), names(known) {
     define_names();
     parse();
   }
@@ -175,13 +180,17 @@ struct Formula::Impl {
     parser.DefineVar("X", &X.x);
     parser.DefineVar("Y", &X.y);
     parser.DefineVar("Z", &X.z);
+    if (names == FormulaNames::point) return;
+    parser.DefineVar("nx", &N.x);
+    parser.DefineVar("ny", &N.y);
+    parser.DefineVar("nz", &N.z);
   }
 
   void parse() {
     if (trimmed(text).empty()) fail(text, origin, 0, "it is empty");
     if (const auto at = find_assignment(text); at != std::string::npos)
       fail(text, origin, static_cast<int>(at), "a single \"=\" is no comparison; write \"==\"");
-    check_names(text, origin);
+    check_names(text, origin, names);
     try {
       parser.SetExpr(text);
       for (const auto& [name, address] : parser.GetUsedVar()) (name == "t" ? uses_time : uses_position) = true;
@@ -197,12 +206,14 @@ struct Formula::Impl {
 
 Formula::Formula() : Formula(0.0) {}
 Formula::Formula(double value) : impl_(std::make_unique<Impl>(value)) {}
-Formula::Formula(const std::string& text, const Origin& origin) : impl_(std::make_unique<Impl>(text, origin)) {}
+Formula::Formula(const std::string& text, const Origin& origin, FormulaNames names)
+    : impl_(std::make_unique<Impl>(text, origin, names)) {}
 
 // The parser keeps addresses of its variables, so a copy parses again.
 Formula::Formula(const Formula& other)
-    : impl_(other.impl_->constant() ? std::make_unique<Impl>(other.impl_->value)
-                                    : std::make_unique<Impl>(other.impl_->text, other.impl_->origin)) {
+    : impl_(other.impl_->constant()
+                ? std::make_unique<Impl>(other.impl_->value)
+                : std::make_unique<Impl>(other.impl_->text, other.impl_->origin, other.impl_->names)) {
   impl_->text = other.impl_->text;
   impl_->origin = other.impl_->origin;
 }
@@ -217,10 +228,11 @@ Formula& Formula::operator=(const Formula& other) {
 Formula& Formula::operator=(Formula&&) noexcept = default;
 Formula::~Formula() = default;
 
-double Formula::operator()(double t, const Vec3& X) const {
+double Formula::operator()(double t, const Vec3& X, const Vec3& N) const {
   if (impl_->constant()) return impl_->value;
   impl_->t = t;
   impl_->X = X;
+  impl_->N = N;
   const double value = impl_->parser.Eval();
   if (!std::isfinite(value))
     throw RunError(fmt::format("{}formula {} is {} at t = {} s, X = ({}, {}, {}) m", describe(impl_->origin),

@@ -10,8 +10,12 @@
 
 namespace tessera {
 
+/// What a formula may depend on: time and the material point; for what acts on a face, its reference normal, too.
+enum class FormulaNames { point, face };
+
 /// A number that may depend on time and on the material point: parsed once, evaluated often, in SI units.
-/// Knows t, X, Y, Z, pi, the functions sin cos tan exp log sqrt abs min max pow (and ^), comparisons, && and ||.
+/// Knows t, X, Y, Z, pi, the functions sin cos tan exp log sqrt abs min max pow (and ^), comparisons, && and ||; with
+/// FormulaNames::face also nx, ny, nz, the components of the outward unit normal in the reference state.
 /// Evaluation is not thread-safe: one formula belongs to one thread at a time.
 class Formula {
  public:
@@ -20,7 +24,7 @@ class Formula {
   /// A constant.
   explicit Formula(double value);
   /// Parses `text`. Throws InputError at `origin`, its column moved to the fault, when the text is no formula.
-  Formula(const std::string& text, const Origin& origin);
+  Formula(const std::string& text, const Origin& origin, FormulaNames names = FormulaNames::point);
 
   Formula(const Formula&);
   Formula(Formula&&) noexcept;
@@ -29,10 +33,12 @@ class Formula {
   ~Formula();
 
   /// The value at time t and material position X. Throws RunError when it is not finite.
-  double operator()(double t, const Vec3& X) const;
+  double operator()(double t, const Vec3& X) const { return (*this)(t, X, Vec3{}); }
+  /// The same on a face with the outward unit normal N.
+  double operator()(double t, const Vec3& X, const Vec3& N) const;
 
   bool depends_on_time() const;
-  bool depends_on_position() const;
+  bool depends_on_position() const;  // or on the normal
   bool is_constant() const { return !depends_on_time() && !depends_on_position(); }
   /// The text as written (or the constant, printed so that it reads back to the same number).
   const std::string& text() const;
@@ -47,6 +53,8 @@ using FormulaVec3 = std::array<Formula, 3>;
 /// Components that are not prescribed ("free") hold nothing.
 using PartialFormulaVec3 = std::array<std::optional<Formula>, 3>;
 
-inline Vec3 evaluate(const FormulaVec3& f, double t, const Vec3& X) { return {f[0](t, X), f[1](t, X), f[2](t, X)}; }
+inline Vec3 evaluate(const FormulaVec3& f, double t, const Vec3& X, const Vec3& N = {}) {
+  return {f[0](t, X, N), f[1](t, X, N), f[2](t, X, N)};
+}
 
 }  // namespace tessera

@@ -97,7 +97,7 @@ void build_sites(Discretization& d, const TetrahedralMesh& mesh) {
     const Vec3 area = 0.5 * cross(b - a, c - a);
     const double A = norm(area);
     for (Index vertex : t.vertices) {
-      d.sites.push_back({point(mesh, vertex), area / A, (1.0 / 3.0) * (a + b + c), t.side, vertex});
+      d.sites.push_back({point(mesh, vertex), area / A, (1.0 / 3.0) * (a + b + c), t.side, vertex, t.vertices});
       // The integral of N_i N_j over a triangle is A/6 for i = j and A/12 otherwise.
       for (Index other : t.vertices) d.load.value.push_back({other, other == vertex ? A / 6.0 : A / 12.0});
       d.load.offset.push_back(static_cast<Offset>(d.load.value.size()));

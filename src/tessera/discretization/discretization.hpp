@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -61,7 +62,8 @@ struct BoundarySite {
   Vec3 N;         // outward unit normal
   Vec3 centroid;  // of the face or triangle, where selections are evaluated [m]
   Index side = -1;
-  Index owner = 0;  // Voronoi: particle whose cell this is; Delaunay: the vertex
+  Index owner = 0;                           // Voronoi: particle whose cell this is; Delaunay: the vertex
+  std::array<Index, 3> corners{-1, -1, -1};  // Delaunay: the triangle, counter-clockwise seen from outside
 };
 
 /// Area [m2] through which a site's traction acts on a particle.

@@ -69,7 +69,11 @@ void append(Discretization& all, Discretization body) {
     if (t.node >= particles) t.node += body.particles();
   for (ClosureTerm& t : body.closure.value) t.node += t.node >= body.particles() ? particles + nodes : particles;
   for (BoundaryNode& f : body.nodes) f.owner += particles, f.site += sites;
-  for (BoundarySite& s : body.sites) s.owner += particles;
+  for (BoundarySite& s : body.sites) {
+    s.owner += particles;
+    for (Index& corner : s.corners)
+      if (corner >= 0) corner += particles;
+  }
   for (LoadShare& l : body.load.value) l.particle += particles;
   for (ParticleConstraint& c : body.constraints) c.particle += particles;
 

@@ -65,7 +65,7 @@ Case build_case(const Table& root) {
   for (const Reader& t : top.tables("body")) c.bodies.push_back(build_body(t, material_names, c.method));
   for (const Reader& t : top.tables("initial"))
     c.initial.push_back({body_of(t, bodies), t.formulas("displacement"), t.formulas("velocity"), t.origin()});
-  for (const Reader& t : top.tables("boundary")) c.boundary.push_back(build_boundary(t, bodies));
+  for (const Reader& t : top.tables("boundary")) c.boundary.push_back(build_boundary(t, bodies, c.method.dimension));
   c.gravity = top.table("gravity").vector("acceleration");
   c.time = build_time(top.table("time"));
   c.output = build_output(top.table("output"));

@@ -66,6 +66,7 @@ ProbeSpec build_probe(const Reader& t, const std::vector<std::string>& bodies) {
   if (!of_everything || t.has("body")) probe.body = body_of(t, bodies);
   if (t.has("where")) probe.where = t.selection("where");
   if (t.has("at")) probe.at = t.vector("at");
+  if (t.has("about")) probe.about = t.vector("about");
   probe.quantity = t.text_or_empty("quantity");
   if (t.has("quantity")) find_quantity(probe.quantity, t.origin_of("quantity"));
   if (probe.kind == ProbeKind::reaction && !probe.where) {

@@ -12,7 +12,7 @@ namespace tessera::input {
 
 BodySpec build_body(const Reader& table, const std::vector<std::string>& materials, const MethodSpec& method);
 
-BoundaryCondition build_boundary(const Reader& table, const std::vector<std::string>& bodies);
+BoundaryCondition build_boundary(const Reader& table, const std::vector<std::string>& bodies, int dimension);
 
 OutputSpec build_output(const Reader& table);
 

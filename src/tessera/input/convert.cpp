@@ -155,6 +155,15 @@ Value to_three(const Parameter& p, const Value& value, const Setting& setting, C
   return with_data(value, std::move(items));
 }
 
+Value to_rows(const Parameter& p, const Value& value, const Setting& setting) {
+  Array rows = to_array(p, value);
+  if (rows.size() == 2 && setting.dimension == 2) rows.push_back({Array(3, Value{0.0, value.origin}), value.origin});
+  if (rows.size() != 3)
+    throw InputError(value.origin, fmt::format("found a list of {}; expected {}", rows.size(), expectation(p)));
+  for (Value& row : rows) row = to_three(p, row, setting, to_full_formula);
+  return with_data(value, std::move(rows));
+}
+
 Value to_number_value(const Parameter& p, const Value& value) { return with_data(value, to_number(p, value)); }
 
 Value to_points(const Parameter& p, const Value& value) {
@@ -227,6 +236,8 @@ Value convert(const Parameter& p, const Value& value, const Setting& setting) {
       return to_three(p, value, setting, to_full_formula);
     case Kind::partial_formulas:
       return to_three(p, value, setting, to_partial_formula);
+    case Kind::formula_rows:
+      return to_rows(p, value, setting);
     case Kind::table:
     case Kind::tables:
     case Kind::shape:

@@ -73,7 +73,10 @@ class Normalizer {
       given.push_back(e.key);
       last = e.origin;
     }
-    if (given.size() != 1)
+    const bool go_together = given.size() > 1 && std::all_of(given.begin(), given.end(), [&](const std::string& key) {
+                               return std::find(p->together.begin(), p->together.end(), key) != p->together.end();
+                             });
+    if (given.size() != 1 && !go_together)
       throw InputError(
           last, fmt::format("found {}; expected exactly one of {}",
                             given.empty() ? "none" : list_of(given, "and") + " together", list_of(p->exactly_one)));

@@ -20,6 +20,11 @@ std::string noun(const Dimension& d) {
 
 std::string with_examples(const Dimension& d) { return fmt::format("{}, as in {}", noun(d), examples_of(d)); }
 
+std::string formula_text(const Parameter& p) {
+  const char* normal = p.names == FormulaNames::face ? ", nx, ny, nz" : "";
+  return fmt::format("{}, a constant with a unit, or a formula in t, X, Y, Z{}", noun(p.dimension), normal);
+}
+
 std::string kind_text(const Parameter& p) {
   switch (p.kind) {
     case Kind::table:
@@ -57,10 +62,11 @@ std::string kind_text(const Parameter& p) {
     case Kind::selection:
       return "a string or a list of strings";
     case Kind::formula:
-      return noun(p.dimension) + ", a constant with a unit, or a formula in t, X, Y, Z";
+      return formula_text(p);
     case Kind::formulas:
-      return fmt::format("a list of three, each {}, a constant with a unit, or a formula in t, X, Y, Z",
-                         noun(p.dimension));
+      return "a list of three, each " + formula_text(p);
+    case Kind::formula_rows:
+      return "a list of three rows of three, each " + formula_text(p);
     case Kind::partial_formulas:
       return fmt::format("a list of three, each {}, a constant with a unit, a formula in t, X, Y, Z, or \"free\"",
                          noun(p.dimension));

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/formula.hpp"
 #include "tessera/base/units.hpp"
 
 namespace tessera::input {
@@ -33,6 +34,7 @@ enum class Kind {
   formula,           // a number or a formula
   formulas,          // three of those
   partial_formulas,  // three of those, or "free"
+  formula_rows,      // three rows of three formulas
 };
 
 /// Is the key needed? A defaulted table is filled with the defaults of its keys.
@@ -70,6 +72,8 @@ struct Parameter {
   std::vector<std::string> only_with = {};  // has effect beside one of these: "counts", "type=point"
   Misplaced misplaced = Misplaced::refused;
   std::vector<std::string> exactly_one = {};  // tables: one of these keys is needed, the others must be absent
+  std::vector<std::string> together = {};     // of those the keys that may stand together
+  FormulaNames names = FormulaNames::point;   // formulas: what they know
   std::string sentence = {};
 };
 

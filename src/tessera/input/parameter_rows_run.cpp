@@ -165,9 +165,9 @@ Rows probe_rows() {
        .kind = choice,
        .presence = required,
        .choices = {"reaction", "point", "average", "maximum", "momentum", "energy"},
-       .sentence =
-           "Force on the tool; position of a material point; average or maximum of a quantity; momentum or energy "
-           "of a body."},
+       .sentence = "Force and torque on the tool; position of a material point; average or maximum of a quantity; "
+                   "momentum or energy "
+                   "of a body."},
       {.key = "probe.body", .kind = name, .sentence = body_sentence},
       {.key = "probe.where",
        .kind = selection,
@@ -182,6 +182,14 @@ Rows probe_rows() {
        .flat = "0.5",
        .only_with = {"type=point"},
        .sentence = "Material position of a point."},
+      {.key = "probe.about",
+       .kind = vector,
+       .presence = defaulted,
+       .dimension = dimension::length,
+       .standard = "[0, 0, 0]",
+       .flat = "0",
+       .only_with = {"type=reaction"},
+       .sentence = "Point in space about which a reaction's torque is taken."},
       {.key = "probe.quantity",
        .kind = name,
        .presence = required,

@@ -12,9 +12,14 @@ const T& as(const Value& value) {
   throw std::logic_error("unexpected type of " + value.origin.key);
 }
 
-Formula formula_of(const Value& value) {
-  if (const auto* text = value.get_if<std::string>()) return Formula(*text, value.origin);
+Formula formula_of(const Value& value, FormulaNames names = FormulaNames::point) {
+  if (const auto* text = value.get_if<std::string>()) return Formula(*text, value.origin, names);
   return Formula(number_of(value));
+}
+
+FormulaVec3 formulas_of(const Value& value, FormulaNames names) {
+  const Array& items = as<Array>(value);
+  return {formula_of(items.at(0), names), formula_of(items.at(1), names), formula_of(items.at(2), names)};
 }
 
 }  // namespace
@@ -62,11 +67,15 @@ Vec3 Reader::vector(const std::string& key) const {
 
 SelectionSpec Reader::selection(const std::string& key) const { return {words(key), origin_of(key)}; }
 
-Formula Reader::formula(const std::string& key) const { return formula_of(value(key)); }
+Formula Reader::formula(const std::string& key, FormulaNames names) const { return formula_of(value(key), names); }
 
-FormulaVec3 Reader::formulas(const std::string& key) const {
-  const Array& items = as<Array>(value(key));
-  return {formula_of(items.at(0)), formula_of(items.at(1)), formula_of(items.at(2))};
+FormulaVec3 Reader::formulas(const std::string& key, FormulaNames names) const {
+  return formulas_of(value(key), names);
+}
+
+std::array<FormulaVec3, 3> Reader::formula_rows(const std::string& key, FormulaNames names) const {
+  const Array& rows = as<Array>(value(key));
+  return {formulas_of(rows.at(0), names), formulas_of(rows.at(1), names), formulas_of(rows.at(2), names)};
 }
 
 PartialFormulaVec3 Reader::partial_formulas(const std::string& key) const {

@@ -38,8 +38,9 @@ class Reader {
   std::vector<std::string> words(const std::string& key) const;
   Vec3 vector(const std::string& key) const;
   SelectionSpec selection(const std::string& key) const;
-  Formula formula(const std::string& key) const;
-  FormulaVec3 formulas(const std::string& key) const;
+  Formula formula(const std::string& key, FormulaNames names = FormulaNames::point) const;
+  FormulaVec3 formulas(const std::string& key, FormulaNames names = FormulaNames::point) const;
+  std::array<FormulaVec3, 3> formula_rows(const std::string& key, FormulaNames names) const;
   PartialFormulaVec3 partial_formulas(const std::string& key) const;
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -23,6 +24,26 @@ struct PrescribedVelocity {
   PartialFormulaVec3 components;
 };
 
+/// Rotation about an axis, then a displacement: u = R (X - point) + point - X + displacement, R by `angle` [rad]
+/// about `axis` in the right-handed sense.
+struct PrescribedRotation {
+  Vec3 axis;   // unit length
+  Vec3 point;  // on the axis [m]
+  Formula angle;
+  FormulaVec3 displacement;  // [m]
+};
+
+/// Displacement along the reference normal, N . u [m]; the components in the face's plane are free.
+struct NormalDisplacement {
+  Formula value;
+};
+
+/// Displacement in the reference face's plane, (I - N (x) N) u, of which `components` give the vector u [m]; the
+/// component along the normal is free.
+struct TangentialDisplacement {
+  FormulaVec3 components;
+};
+
 /// Force per reference area [Pa], fixed in direction.
 struct NominalTraction {
   FormulaVec3 components;
@@ -33,11 +54,24 @@ struct NominalPressure {
   Formula pressure;
 };
 
+/// Nominal traction P N of a given first Piola-Kirchhoff stress [Pa], row by row.
+struct NominalStress {
+  std::array<FormulaVec3, 3> rows;
+};
+
+/// Pressure on the present face, against its present normal and per present area: the nominal traction -p J F^-T N
+/// [Pa].
+struct FollowingPressure {
+  Formula pressure;
+};
+
 /// One [[boundary]] entry.
 struct BoundaryCondition {
   std::string body;  // empty: the only body
   SelectionSpec where;
-  std::variant<Condition, PrescribedDisplacement, PrescribedVelocity, NominalTraction, NominalPressure> kind;
+  std::variant<Condition, PrescribedDisplacement, PrescribedVelocity, PrescribedRotation, NormalDisplacement,
+               TangentialDisplacement, NominalTraction, NominalPressure, NominalStress, FollowingPressure>
+      kind;
   Origin origin;
 };
 

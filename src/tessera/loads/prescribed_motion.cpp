@@ -2,33 +2,9 @@
 
 #include <algorithm>
 
+#include "tessera/loads/condition_values.hpp"
+
 namespace tessera {
-
-namespace {
-
-/// Evaluates components at many points; components that do not depend on the position are evaluated once.
-class Evaluator {
- public:
-  Evaluator(const PartialFormulaVec3& components, double t) : components_(components), t_(t) {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (components[i] && !components[i]->depends_on_position())
-        everywhere_[static_cast<int>(i)] = (*components[i])(t, Vec3{});
-  }
-
-  Vec3 at(const Vec3& X) const {
-    Vec3 u = everywhere_;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (components_[i] && components_[i]->depends_on_position()) u[static_cast<int>(i)] = (*components_[i])(t_, X);
-    return u;
-  }
-
- private:
-  const PartialFormulaVec3& components_;
-  double t_;
-  Vec3 everywhere_;
-};
-
-}  // namespace
 
 PrescribedMotion::PrescribedMotion(std::vector<Vec3> X, std::vector<PointConstraint> constraints,
                                    std::span<const Vec3> initial)
@@ -51,9 +27,8 @@ PrescribedMotion::PrescribedMotion(std::vector<Vec3> X, std::vector<PointConstra
 void PrescribedMotion::move_to(double t) {
   const double dt = t - time_, middle = time_ + 0.5 * dt;
   for (const Group& g : groups_) {
-    const auto* velocity = std::get_if<PrescribedVelocity>(&g.condition->kind);
-    if (velocity == nullptr || dt == 0.0) continue;
-    const Evaluator v(velocity->components, middle);
+    if (!std::holds_alternative<PrescribedVelocity>(g.condition->kind) || dt == 0.0) continue;
+    const MotionValues v(*g.condition, middle);
     for (std::size_t k = 0; k < g.parts.size(); ++k)
       integrated_[g.first_integrated + k] += dt * v.at(X_[g.parts[k].point]);
   }
@@ -67,8 +42,8 @@ void PrescribedMotion::place() {
     if (std::holds_alternative<PrescribedVelocity>(g.condition->kind)) {
       for (std::size_t k = 0; k < g.parts.size(); ++k)
         positions_[g.parts[k].point] += g.parts[k].M * integrated_[g.first_integrated + k];
-    } else if (const auto* displacement = std::get_if<PrescribedDisplacement>(&g.condition->kind)) {
-      const Evaluator u(displacement->components, time_);
+    } else {
+      const MotionValues u(*g.condition, time_);
       for (const Part& p : g.parts) positions_[p.point] += p.M * u.at(X_[p.point]);
     }
   }

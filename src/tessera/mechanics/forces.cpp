@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tessera/mechanics/boundary.hpp"
+#include "tessera/mechanics/following.hpp"
 #include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
@@ -57,7 +58,7 @@ void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
   sums_ = parallel::sum_tasks<StressSums>(
       system_.tiles.size(), [&](std::int64_t tile) { return tile_forces(static_cast<Index>(tile), state, dt); });
   drain();
-  finish(action);
+  finish(state, action);
 }
 
 void Forces::restore_previous_deformation(Field<Columns> F) {
@@ -115,8 +116,9 @@ void Forces::drain() {
 }
 
 /// Adds tractions, what other tiles have done, and gravity.
-void Forces::finish(const ExternalAction& action) {
+void Forces::finish(const State& state, const ExternalAction& action) {
   const System& s = system_;
+  if (action.following != nullptr) follow_faces(s, state.x.data(), F_.data(), *action.following);
   for (const NodalForce& l : action.tractions) f_[static_cast<std::size_t>(l.particle)] += to_kernel(l.force);
   const Double4 g = to_kernel(action.gravity);
   parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "tessera/loads/nodal_force.hpp"
+#include "tessera/loads/tractions.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
 #include "tessera/mechanics/state.hpp"
 #include "tessera/mechanics/sweeps.hpp"
@@ -17,6 +17,7 @@ struct ExternalAction {
   std::span<const Vec3> walls;            // current position W_f of each boundary node's prescribed point [m]
   std::span<const NodalForce> tractions;  // [N]; a particle may occur several times
   Vec3 gravity;                           // [m/s2]
+  Tractions* following = nullptr;         // adds its pressures that follow to `tractions`, which it holds
 };
 
 /// Forces as the gradient of the potential: fill the boundary nodes; strain tile by tile; stress and force tile by
@@ -59,7 +60,7 @@ class Forces {
   StressSums tile_forces(Index tile, const State& state, double dt);
   void hand_on(Index tile, TileScratch& scratch);
   void drain();
-  void finish(const ExternalAction& action);
+  void finish(const State& state, const ExternalAction& action);
   /// Boundary nodes or rows treat the elastic stress and the contact stress differently ([V 42, 43]).
   bool split() const { return split_; }
 

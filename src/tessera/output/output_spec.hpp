@@ -51,6 +51,7 @@ struct ProbeSpec {
   std::optional<SelectionSpec>
       where;               // reaction: boundary faces or particles; average, maximum: particles (unset: all)
   std::optional<Vec3> at;  // point: material position [m]
+  Vec3 about;              // reaction: the point in space about which its torque is taken [m]
   std::string quantity;    // average, maximum: a name of the quantity table
   Origin origin;
 };

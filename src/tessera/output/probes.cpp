@@ -66,7 +66,8 @@ BoundProbe bind_probe(const ProbeSpec& spec, const Snapshot& snapshot, std::vect
 }
 
 std::vector<Column> probe_columns(const ProbeSpec& spec) {
-  static const std::array<Column, 3> reaction = {{{"fx", "N"}, {"fy", "N"}, {"fz", "N"}}};
+  static const std::array<Column, 6> reaction = {
+      {{"fx", "N"}, {"fy", "N"}, {"fz", "N"}, {"tx", "N m"}, {"ty", "N m"}, {"tz", "N m"}}};
   static const std::array<Column, 3> point = {{{"x", "m"}, {"y", "m"}, {"z", "m"}}};
   static const std::array<Column, 6> momenta = {
       {{"px", "kg m/s"}, {"py", "kg m/s"}, {"pz", "kg m/s"}, {"lx", "kg m2/s"}, {"ly", "kg m2/s"}, {"lz", "kg m2/s"}}};

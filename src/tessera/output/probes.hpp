@@ -29,7 +29,7 @@ Index nearest_particle(const Snapshot& snapshot, std::span<const Index> candidat
 BoundProbe bind_probe(const ProbeSpec& spec, const Snapshot& snapshot, std::vector<Index> candidates);
 
 /// The probe's columns, each named NAME.SOMETHING:
-///   reaction  fx, fy, fz [N]
+///   reaction  fx, fy, fz [N], tx, ty, tz (torque about the point `about`) [N m]
 ///   point     x, y, z [m]
 ///   average   QUANTITY, or QUANTITY_x .. (vector), QUANTITY_xx .. (tensor)
 ///   maximum   as average; for vectors also QUANTITY, the greatest length

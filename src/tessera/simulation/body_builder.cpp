@@ -11,6 +11,7 @@
 #include "tessera/discretization/voronoi.hpp"
 #include "tessera/geometry/surface_load.hpp"
 #include "tessera/geometry/surface_sides.hpp"
+#include "tessera/loads/condition_values.hpp"
 #include "tessera/simulation/relaxed_points.hpp"
 #include "tessera/tessellation/cells.hpp"
 #include "tessera/tessellation/surface_cells.hpp"
@@ -112,7 +113,8 @@ Discretization discretize(const MethodSpec& method, std::span<const Vec3> X, con
   return discretize_consistent(X, cells, D);
 }
 
-/// A traction along a component whose motion is prescribed would have no effect.
+/// A traction along a component whose motion is prescribed would have no effect; a pressure that follows turns into
+/// any direction.
 void refuse_loads_on_held_components(const BuiltBody& b, double end) {
   for (const LoadedPiece& l : b.loaded) {
     const auto i = static_cast<std::size_t>(l.piece);
@@ -120,12 +122,9 @@ void refuse_loads_on_held_components(const BuiltBody& b, double end) {
     if (is_zero(D)) continue;
     const SurfacePiece& piece = b.surface.pieces[i];
     for (const double t : {0.0, 0.37 * end, end}) {
-      Vec3 T;
-      if (const auto* p = std::get_if<NominalPressure>(&l.condition->kind))
-        T = -p->pressure(t, piece.centroid) * piece.N;
-      else
-        T = evaluate(std::get<NominalTraction>(l.condition->kind).components, t, piece.centroid);
-      if (norm(D * T) > 1e-9 * norm(T))
+      const Vec3 T = TractionValues(*l.condition, t).at(piece.centroid, piece.N);
+      const bool turns = std::holds_alternative<FollowingPressure>(l.condition->kind);
+      if (turns || norm(D * T) > 1e-9 * norm(T))
         throw InputError(
             l.condition->origin,
             fmt::format(

@@ -62,7 +62,8 @@ Engine::Engine(Model& model, const TimeSpec& spec)
 void Engine::evaluate(double dt) {
   model_.loads.tractions.evaluate(time_);
   walls_ = copy_of(model_.loads.motion.positions());
-  forces_.evaluate(state_, {walls_, model_.loads.tractions.forces(), model_.loads.gravity}, dt);
+  Tractions& tractions = model_.loads.tractions;
+  forces_.evaluate(state_, {walls_, tractions.forces(), model_.loads.gravity, &tractions}, dt);
 }
 
 void Engine::prepare() {
@@ -118,6 +119,15 @@ EnergyLedger Engine::energies() const {
 
 const std::vector<Vec3>& Engine::reactions() const {
   return model_.system.d.constraints.empty() ? forces_.reactions() : leapfrog_.reactions();
+}
+
+Vec3 Engine::reaction_point(std::size_t i) const {
+  const Discretization& d = model_.system.d;
+  const auto at = [&](std::size_t node) { return to_vec3(state_.x[node]); };
+  if (!d.constraints.empty()) return at(static_cast<std::size_t>(d.constraints[i].particle));
+  const BoundaryNode& f = d.nodes[i];  // a ghost is as far behind the wall as its particle is before it
+  const Vec3 owner = at(static_cast<std::size_t>(f.owner));
+  return owner + (1.0 / f.wall_share) * (at(d.X.size() + i) - owner);
 }
 
 double Engine::largest_force() const {

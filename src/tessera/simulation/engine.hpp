@@ -47,6 +47,8 @@ class Engine {
   SnapshotSource snapshots() const;
   /// Force on what prescribes the motion of each boundary node (voronoi) or constrained particle (delaunay) [N].
   const std::vector<Vec3>& reactions() const;
+  /// Where reaction number i acts: the boundary node's present place on the wall, or the particle's [m].
+  Vec3 reaction_point(std::size_t i) const;
   /// Largest force on a particle, components without prescribed motion only [N].
   double largest_force() const;
 

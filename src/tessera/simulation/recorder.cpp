@@ -109,9 +109,13 @@ std::vector<double> HistoryRows::row(const Engine& engine) const {
   const Snapshot snapshot = needs_snapshot_ ? engine.snapshot() : Snapshot{};
   for (const Probe& probe : probes_) {
     if (probe.bound.spec.kind == ProbeKind::reaction) {
-      Vec3 sum;
-      for (std::size_t i : probe.reaction.points) sum += engine.reactions()[i];
-      row.insert(row.end(), {sum.x, sum.y, sum.z});
+      Vec3 force, torque;
+      for (std::size_t i : probe.reaction.points) {
+        const Vec3& reaction = engine.reactions()[i];
+        force += reaction;
+        torque += cross(engine.reaction_point(i) - probe.bound.spec.about, reaction);
+      }
+      row.insert(row.end(), {force.x, force.y, force.z, torque.x, torque.y, torque.z});
     } else {
       const std::vector<double> values = probe_values(probe.bound, snapshot);
       row.insert(row.end(), values.begin(), values.end());

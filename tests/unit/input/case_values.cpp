@@ -66,6 +66,27 @@ TEST(Case, HoldsLoads) {
   EXPECT_EQ(std::get<NominalPressure>(c.boundary[3].kind).pressure(0.0, X), 2e5);
 }
 
+TEST(Case, HoldsLoadsOnFacesOfAnyDirection) {
+  const auto kind_of = [](const std::string& entry) {
+    return sample::read(sample::with("pressure = \"2 bar\"", entry)).boundary[3].kind;
+  };
+  const Vec3 X{1, 2, 3}, N{0, 0.6, 0.8};
+  const auto rotation = kind_of(
+      "rotation = { axis = [0, 3, 4], point = [\"1 cm\", 0, 0], angle = \"180 deg\" }\ndisplacement = [0, \"t\", 1]");
+  EXPECT_LT(norm(std::get<PrescribedRotation>(rotation).axis - N), 1e-15);
+  EXPECT_EQ(std::get<PrescribedRotation>(rotation).point, (Vec3{0.01, 0, 0}));
+  EXPECT_DOUBLE_EQ(std::get<PrescribedRotation>(rotation).angle(0.0, X), 3.14159265358979323846);
+  EXPECT_EQ(evaluate(std::get<PrescribedRotation>(rotation).displacement, 5.0, X), (Vec3{0, 5, 1}));
+  EXPECT_EQ(std::get<PrescribedRotation>(kind_of("rotation = { angle = \"t\" }")).axis, (Vec3{0, 0, 1}));
+  EXPECT_EQ(std::get<NormalDisplacement>(kind_of("normal_displacement = \"-2 mm\"")).value(0.0, X), -0.002);
+  EXPECT_EQ(std::get<TangentialDisplacement>(kind_of("tangential_displacement = [0, \"X\", 1]")).components[1](0.0, X),
+            1.0);
+  EXPECT_EQ(std::get<FollowingPressure>(kind_of("following_pressure = \"10*ny\"")).pressure(0.0, X, N), 6.0);
+  const auto stress = kind_of("stress = [[\"1 kPa\", 2, 3], [4, \"t*nz\", 6], [7, 8, 9]]");
+  EXPECT_EQ(evaluate(std::get<NominalStress>(stress).rows[0], 0.0, X), (Vec3{1000, 2, 3}));
+  EXPECT_EQ(evaluate(std::get<NominalStress>(stress).rows[1], 10.0, X, N), (Vec3{4, 8, 6}));
+}
+
 TEST(Case, HoldsTimeAndOutput) {
   const Case c = sample::read(sample::text);
   EXPECT_EQ(c.time.end, 1.5);

@@ -104,7 +104,7 @@ TEST(Probes, EnergyOfABody) {
 TEST(Probes, ReactionsAreLeftToTheCaller) {
   const Snapshot s = sample::snapshot();
   EXPECT_TRUE(probe_values(bind_probe(spec(ProbeKind::reaction), s, {}), s).empty());
-  EXPECT_EQ(names(spec(ProbeKind::reaction)), "tip.fx[N] tip.fy[N] tip.fz[N] ");
+  EXPECT_EQ(names(spec(ProbeKind::reaction)), "tip.fx[N] tip.fy[N] tip.fz[N] tip.tx[N m] tip.ty[N m] tip.tz[N m] ");
 }
 
 TEST(Probes, WhatIsMissingIsNamed) {

@@ -59,6 +59,19 @@ std::vector<Sample> samples() {
                    }});
     all.push_back({name + "pressure", m,
                    [](Case& c) { c.boundary = {condition({"+z"}, NominalPressure{formula("1e5*sin(20*t)")})}; }});
+    all.push_back({name + "following_pressure", m, [](Case& c) {
+                     c.boundary = {condition({"+z", "+x"}, FollowingPressure{formula("4e5*t^2*(1+X)")}),
+                                   condition({"-z"}, Condition::fixed)};
+                     c.initial.clear();
+                   }});
+    all.push_back(
+        {name + "rotation", m, [](Case& c) {
+           c.boundary = {
+               condition({"-z"}, Condition::fixed),
+               condition({"+z"}, PrescribedRotation{
+                                     {0, 0, 1}, {0.5, 0.5, 0}, formula("50*t^3"), formulas("0", "10*t^3", "0")})};
+           c.initial.clear();
+         }});
     all.push_back({name + "gravity", m, [](Case& c) { c.gravity = {3.0, 0, -9.81}; }});
     all.push_back({name + "wall", m, [](Case& c) {
                      c.boundary = {
