@@ -265,15 +265,16 @@ class Surfaces(CliTest):
         self.write_case('{ file = "part.off", units = "m" }')
         found = json.loads(self.check("--json").stdout)
         self.assertAlmostEqual(found["volume"], 1 / 6, delta=1e-15)
-        self.assertIn("4 triangles, 4 vertices, 1 shell", found["notes"][0])
-        self.assertEqual(len(found["notes"]), 2)
-        self.assertIn('side "surface": area 2.36603 m2', found["notes"][1])
+        self.assertIn("4 triangles, 4 vertices", found["notes"][0])
+        self.assertIn("part.off: 4 triangles, 4 vertices, 1 shell", found["notes"][1])
+        self.assertEqual(len(found["notes"]), 3)
+        self.assertIn('side "surface": area 2.36603 m2', found["notes"][2])
 
     def test_split_angle(self):
         self.write_case('{ file = "part.off", units = "m", split_angle = 30 }')
         notes = json.loads(self.check("--json").stdout)["notes"]
-        self.assertEqual([note.split('"')[1] for note in notes[1:]], ["side1", "side2", "side3", "side4"])
-        self.assertIn("normal (0.577, 0.577, 0.577)", notes[1])
+        self.assertEqual([note.split('"')[1] for note in notes[2:]], ["side1", "side2", "side3", "side4"])
+        self.assertIn("normal (0.577, 0.577, 0.577)", notes[2])
 
     def test_units(self):
         self.write_case('{ file = "part.off", units = "cm" }')
@@ -295,8 +296,7 @@ class Surfaces(CliTest):
         self.refused('{ file = "part.off", units = "m", box = { min = [0, 0, 0], max = [1, 1, 1] } }', "", "exactly one")
         self.refused(plain, '[method]\nformulation = "delaunay"\n', "case.toml:4", "voronoi")
         self.refused(plain, '[method]\nboundary = "variational"\n', "case.toml:4", "consistent")
-        self.refused('{ union = [{ file = "part.off", units = "m" }, { box = { min = [0, 0, 0], max = [1, 1, 1] } }] }',
-                     "", "only be made of boxes")
+        self.refused('{ sphere = { radius = 1 } }', '[method]\nboundary = "quasi-static"\n', "case.toml:4", "bisect")
         self.refused('{ file = "other.off", units = "m" }', "", "other.off", status=GEOMETRY)
 
     def test_open_surface(self):

@@ -25,14 +25,8 @@ void collect_boxes(const Shape& shape, std::vector<BoxShape>& boxes) {
     boxes.push_back(*box);
     return;
   }
-  const auto* sum = std::get_if<UnionShape>(&shape.kind);
-  const auto* difference = std::get_if<DifferenceShape>(&shape.kind);
-  if (!sum && !difference)
-    throw InputError(
-        shape.origin,
-        "a union or difference can only be made of boxes; write other shapes as one polygon or one surface file");
-  const std::vector<Shape>& parts = sum ? sum->parts : difference->parts;
-  if (parts.empty()) throw InputError(shape.origin, "a union or difference needs at least one part");
+  const std::vector<Shape>& parts = *parts_of(shape);
+  if (parts.empty()) throw InputError(shape.origin, "a union, difference or intersection needs at least one part");
   for (const Shape& part : parts) collect_boxes(part, boxes);
 }
 
@@ -85,15 +79,16 @@ void add_part(const Shape& shape, const std::string& path, GriddedShape& out) {
   if (const auto* box = std::get_if<BoxShape>(&shape.kind)) {
     inside = cells_of_box(out.grid, *box);
   } else {
-    const auto* sum = std::get_if<UnionShape>(&shape.kind);
-    const std::vector<Shape>& parts = sum ? sum->parts : std::get<DifferenceShape>(shape.kind).parts;
+    const bool adds = std::holds_alternative<UnionShape>(shape.kind);
+    const bool keeps_common = std::holds_alternative<IntersectionShape>(shape.kind);
+    const std::vector<Shape>& parts = *parts_of(shape);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const std::size_t child = out.parts.size();
       add_part(parts[p], fmt::format("{}{}part{}", own_path, own_path.empty() ? "" : ".", p + 1), out);
       const std::vector<bool>& of_child = out.parts[child].inside;
       if (p == 0) inside = of_child;
       for (std::size_t c = 0; c < inside.size(); ++c)
-        if (p > 0 && of_child[c]) inside[c] = sum != nullptr;
+        if (p > 0 && of_child[c] != keeps_common) inside[c] = adds;
     }
   }
   out.parts[self].inside = std::move(inside);
@@ -119,7 +114,7 @@ GriddedShape grid_shape(const Shape& shape) {
   add_part(shape, "", out);
   const std::vector<bool>& inside = out.parts[0].inside;
   if (std::find(inside.begin(), inside.end(), true) == inside.end())
-    throw InputError(shape.origin, "the difference leaves nothing: the parts taken away cover the first one");
+    throw InputError(shape.origin, "the shape is empty: its differences and intersections leave nothing");
   return out;
 }
 

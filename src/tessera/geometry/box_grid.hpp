@@ -33,8 +33,8 @@ struct GriddedShape {
   std::vector<GridPart> parts;  // parts[0] is the whole
 };
 
-/// Lays the grid and finds what is inside. Throws InputError at the shape's origin for empty boxes, parts that are
-/// no boxes, and shapes that leave nothing.
+/// Lays the grid of a shape that is made of boxes and finds what is inside. Throws InputError at the shape's origin for
+/// empty boxes and shapes that leave nothing.
 GriddedShape grid_shape(const Shape& shape);
 
 /// Sorted values with those that are equal to within `tolerance` reduced to the smallest of them.

@@ -5,6 +5,7 @@
 
 #include "tessera/geometry/box_solid.hpp"
 #include "tessera/geometry/polygon_solid.hpp"
+#include "tessera/geometry/shape_move.hpp"
 
 namespace tessera {
 
@@ -22,10 +23,10 @@ std::vector<std::string> side_names(const Solid& solid) {
 }
 
 Solid build_solid(const Shape& shape) {
-  if (std::holds_alternative<SurfaceShape>(shape.kind))
-    throw InputError(shape.origin, "a surface file needs a body of its own, in the voronoi formulation");
-  if (const auto* polygon = std::get_if<PolygonShape>(&shape.kind)) return build_polygon_solid(shape, *polygon);
-  return build_box_solid(shape);
+  if (!has_convex_pieces(shape)) throw InputError(shape.origin, "only boxes and polygons have convex pieces");
+  const Shape in_place = settled(shape);
+  if (const auto* polygon = std::get_if<PolygonShape>(&in_place.kind)) return build_polygon_solid(in_place, *polygon);
+  return build_box_solid(in_place);
 }
 
 }  // namespace tessera

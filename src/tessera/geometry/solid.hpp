@@ -58,8 +58,8 @@ struct Solid {
 /// Every name that a side of the solid bears, sorted, each once.
 std::vector<std::string> side_names(const Solid& solid);
 
-/// Builds the solid of a shape. Throws InputError at the shape's origin for empty boxes, polygons that cross
-/// themselves, differences that leave nothing, and unions or differences of anything but boxes.
+/// Builds the solid of a shape that has_convex_pieces. Throws InputError at the shape's origin for empty boxes,
+/// polygons that cross themselves, differences and intersections that leave nothing, and other shapes.
 Solid build_solid(const Shape& shape);
 
 }  // namespace tessera

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tessera/base/error.hpp"
 #include "tessera/geometry/predicates.hpp"
@@ -30,10 +31,15 @@ void refuse_bad_vertices(const FileSurface& file) {
 }
 
 CheckedSurface check_surface(FileSurface file) {
+  const double tolerance = weld_tolerance(file.surface);
+  return check_surface(std::move(file), tolerance);
+}
+
+CheckedSurface check_surface(FileSurface file, double tolerance) {
   refuse_empty(file);
   refuse_bad_vertices(file);
   SurfaceRepairs repairs;
-  repairs.tolerance = weld_tolerance(file.surface);
+  repairs.tolerance = tolerance;
   weld_vertices(file.surface, repairs);
   drop_needless_triangles(file, repairs);
   refuse_empty(file);

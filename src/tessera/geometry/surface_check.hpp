@@ -17,6 +17,8 @@ struct CheckedSurface {
 /// itself but at common edges and vertices, and is seen counter-clockwise from outside, also where it bounds a cavity.
 /// Throws GeometryError that says what is wrong, how often and where, and what helps.
 CheckedSurface check_surface(FileSurface file);
+/// The same with a tolerance for welding and mending of one's own [the file's unit].
+CheckedSurface check_surface(FileSurface file, double tolerance);
 
 /// The parts of check_surface, each of which throws GeometryError.
 void refuse_bad_vertices(const FileSurface& file);

@@ -162,6 +162,15 @@ TriangleSurface cone_surface(double bottom_radius, double top_radius, double hei
   return cone;
 }
 
+TriangleSurface cone_surface(const Vec3& from, const Vec3& to, double bottom_radius, double top_radius,
+                             double tolerance) {
+  const double height = norm(to - from);
+  TriangleSurface cone = cone_surface(bottom_radius, top_radius, height, tolerance);
+  const Mat3 frame = frame_along(to - from);
+  for (Vec3& X : cone.vertices) X = (X.z == 0 ? from : to) + frame * Vec3{X.x, X.y, 0};
+  return cone;
+}
+
 TriangleSurface cylinder_surface(double radius, double height, double tolerance) {
   refuse_unless_positive("radius", radius);
   return cone_surface(radius, radius, height, tolerance);

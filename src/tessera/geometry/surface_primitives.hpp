@@ -19,6 +19,11 @@ TriangleSurface cone_surface(double bottom_radius, double top_radius, double hei
 /// Side "mantle".
 TriangleSurface sphere_surface(double radius, double tolerance);
 
+/// The same between the discs around `from` ("bottom") and `to` ("top"), which must differ; a disc across a coordinate
+/// axis is exactly flat.
+TriangleSurface cone_surface(const Vec3& from, const Vec3& to, double bottom_radius, double top_radius,
+                             double tolerance);
+
 /// Semi-axes along x, y, z. Side "mantle".
 TriangleSurface ellipsoid_surface(const Vec3& semi_axes, double tolerance);
 

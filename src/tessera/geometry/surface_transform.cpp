@@ -34,4 +34,15 @@ Mat3 rotation(const Vec3& axis, double angle) {
   return c * identity() + s * across + (1 - c) * outer(n, n);
 }
 
+Mat3 frame_along(const Vec3& axis) {
+  const Vec3 w = normalized(axis);
+  int across = 0;  // the coordinate axis that is most nearly across
+  for (int d = 1; d < 3; ++d)
+    if (std::abs(w[d]) < std::abs(w[across])) across = d;
+  Vec3 e;
+  e[across] = 1;
+  const Vec3 u = normalized(e - w[across] * w), v = cross(w, u);
+  return {{u.x, v.x, w.x, u.y, v.y, w.y, u.z, v.z, w.z}};
+}
+
 }  // namespace tessera

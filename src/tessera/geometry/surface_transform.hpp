@@ -13,4 +13,7 @@ TriangleSurface transformed(TriangleSurface surface, const Mat3& A, const Vec3& 
 /// the coordinate axes. The axis has a length that is not zero.
 Mat3 rotation(const Vec3& axis, double angle);
 
+/// A rotation that takes the z axis to the direction of `axis`, whose length is not zero; exact for coordinate axes.
+Mat3 frame_along(const Vec3& axis);
+
 }  // namespace tessera

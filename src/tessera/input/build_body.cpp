@@ -1,50 +1,11 @@
 #include <fmt/format.h>
 
-#include "tessera/base/units.hpp"
 #include "tessera/input/build_parts.hpp"
 #include "tessera/input/names.hpp"
 
 namespace tessera::input {
 
 namespace {
-
-Shape build_shape(const Reader& t);
-
-std::vector<Shape> build_shapes(const Reader& t, const std::string& key) {
-  std::vector<Shape> shapes;
-  for (const Reader& part : t.tables(key)) shapes.push_back(build_shape(part));
-  if (shapes.size() < 2)
-    throw InputError(t.origin_of(key), fmt::format("found {} shape; expected at least two", shapes.size()));
-  return shapes;
-}
-
-PolygonShape build_polygon(const Reader& t) {
-  PolygonShape polygon;
-  for (const Value& point : *t.value("points").get_if<Array>()) {
-    const Array& pair = *point.get_if<Array>();
-    polygon.points.push_back({number_of(pair.at(0)), number_of(pair.at(1))});
-  }
-  polygon.base = t.number("base");
-  polygon.thickness = t.number("thickness");
-  return polygon;
-}
-
-SurfaceShape build_surface(const Reader& t) {
-  const DimensionalResult unit = read_quantity("1 " + t.text("units"));
-  return {t.text("file"), unit.quantity->value, t.optional_number("split_angle")};
-}
-
-Shape build_shape(const Reader& t) {
-  Shape shape;
-  shape.name = t.text_or_empty("name");
-  shape.origin = t.origin();
-  if (t.has("box")) shape.kind = BoxShape{t.table("box").vector("min"), t.table("box").vector("max")};
-  if (t.has("union")) shape.kind = UnionShape{build_shapes(t, "union")};
-  if (t.has("difference")) shape.kind = DifferenceShape{build_shapes(t, "difference")};
-  if (t.has("file")) shape.kind = build_surface(t);
-  if (t.has("polygon")) shape.kind = build_polygon(t.table("polygon"));
-  return shape;
-}
 
 std::uint64_t seed_of(const Reader& t) { return static_cast<std::uint64_t>(t.integer("seed")); }
 

@@ -12,6 +12,8 @@ namespace tessera::input {
 
 BodySpec build_body(const Reader& table, const std::vector<std::string>& materials, const MethodSpec& method);
 
+Shape build_shape(const Reader& table);
+
 BoundaryCondition build_boundary(const Reader& table, const std::vector<std::string>& bodies, int dimension);
 
 OutputSpec build_output(const Reader& table);

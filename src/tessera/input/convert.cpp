@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "tessera/base/text.hpp"
 #include "tessera/input/toml_reader.hpp"
@@ -40,6 +42,16 @@ double quantity_in_text(const Parameter& p, const Value& value, const std::strin
                                unit.empty() ? "" : " in " + unit, expectation(p)));
 }
 
+/// A string that is no number alone has its angle in radians by now.
+double angle_in_text(const Parameter& p, const Value& value, const std::string& text) {
+  const double number = quantity_in_text(p, value, text);
+  const std::string_view last = trimmed(text);
+  const bool has_unit = !last.empty() && std::isalpha(static_cast<unsigned char>(last.back())) != 0;
+  if (!has_unit) return number;
+  const double degrees = number * 180.0 / std::numbers::pi, whole = std::round(degrees);
+  return std::abs(degrees - whole) < 1e-12 * std::abs(whole) ? whole : degrees;
+}
+
 double to_number(const Parameter& p, const Value& value) {
   double number = 0.0;
   if (const auto* integer = value.get_if<std::int64_t>()) {
@@ -47,7 +59,7 @@ double to_number(const Parameter& p, const Value& value) {
   } else if (const auto* real = value.get_if<double>()) {
     number = *real;
   } else if (const auto* text = value.get_if<std::string>()) {
-    number = quantity_in_text(p, value, *text);
+    number = p.kind == Kind::angle ? angle_in_text(p, value, *text) : quantity_in_text(p, value, *text);
   } else {
     fail_type(p, value);
   }
@@ -166,6 +178,12 @@ Value to_rows(const Parameter& p, const Value& value, const Setting& setting) {
 
 Value to_number_value(const Parameter& p, const Value& value) { return with_data(value, to_number(p, value)); }
 
+Value to_factors(const Parameter& p, const Value& value, const Setting& setting) {
+  if (value.get_if<Array>() != nullptr) return to_three(p, value, setting, to_number_value);
+  const Value one = to_number_value(p, value);
+  return with_data(value, Array{one, one, one});
+}
+
 Value to_points(const Parameter& p, const Value& value) {
   Array points = to_array(p, value);
   if (points.size() < 3)
@@ -207,6 +225,7 @@ Value convert(const Parameter& p, const Value& value, const Setting& setting) {
     case Kind::integer:
       return to_integer(p, value);
     case Kind::number:
+    case Kind::angle:
       return to_number_value(p, value);
     case Kind::text:
       return with_data(value, to_text(p, value));
@@ -222,6 +241,8 @@ Value convert(const Parameter& p, const Value& value, const Setting& setting) {
       return to_interval(p, value);
     case Kind::vector:
       return to_three(p, value, setting, to_number_value);
+    case Kind::factors:
+      return to_factors(p, value, setting);
     case Kind::counts:
       return to_three(p, value, setting, to_integer);
     case Kind::points:

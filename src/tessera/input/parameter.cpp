@@ -39,6 +39,8 @@ std::string kind_text(const Parameter& p) {
       return "an integer";
     case Kind::number:
       return with_examples(p.dimension);
+    case Kind::angle:
+      return "an angle in degrees, as in \"30 deg\", \"0.5 rad\" or 30";
     case Kind::text:
       return "a string";
     case Kind::name:
@@ -53,6 +55,8 @@ std::string kind_text(const Parameter& p) {
       return with_examples(p.dimension) + ", or wall-clock time, as in \"60 s wall\"";
     case Kind::vector:
       return fmt::format("a list of three, each {}", with_examples(p.dimension));
+    case Kind::factors:
+      return "a number, or a list of three";
     case Kind::counts:
       return "a list of three integers";
     case Kind::points:

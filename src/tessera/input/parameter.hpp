@@ -20,6 +20,7 @@ enum class Kind {
   flag,              // true or false
   integer,           //
   number,            // with the row's dimension
+  angle,             // in degrees, or with a unit
   text,              //
   name,              // a text without quotes, commas and control characters
   path,              // of a file, relative to the case file
@@ -27,6 +28,7 @@ enum class Kind {
   step,              // one of the row's words, or a time
   interval,          // a time, or a wall-clock time like "60 s wall"
   vector,            // three numbers
+  factors,           // three numbers, or one for all three
   counts,            // three integers
   points,            // pairs of numbers
   words,             // a list of strings

@@ -12,8 +12,10 @@ using Rows = std::vector<Parameter>;
 
 /// title and [method].
 Rows method_rows();
-/// [[body]] and its shape.
+/// [[body]] and its particles.
 Rows body_rows();
+/// What shapes are made of.
+Rows shape_rows();
 /// [[material]].
 Rows material_rows();
 /// [[initial]], [[boundary]] and [gravity].

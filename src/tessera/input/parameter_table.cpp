@@ -6,7 +6,8 @@ namespace {
 
 Rows all_rows() {
   Rows all;
-  for (const Rows& rows : {method_rows(), body_rows(), material_rows(), load_rows(), time_rows(), probe_rows()})
+  for (const Rows& rows :
+       {method_rows(), body_rows(), shape_rows(), material_rows(), load_rows(), time_rows(), probe_rows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

@@ -9,7 +9,7 @@
 #include "tessera/discretization/delaunay.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
-#include "tessera/geometry/surface_load.hpp"
+#include "tessera/geometry/shape_surface.hpp"
 #include "tessera/geometry/surface_sides.hpp"
 #include "tessera/loads/condition_values.hpp"
 #include "tessera/simulation/relaxed_points.hpp"
@@ -176,48 +176,45 @@ BuiltBody build_voronoi(const Case& c, const BodySpec& body, const Solid& solid,
 
 /// What cannot be done yet with solids that a surface encloses.
 void check_surface_case(const Case& c, const Shape& shape) {
-  const auto refuse = [&](const std::string& what) { throw InputError(shape.origin, what); };
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(shape.origin, "a shape that is not made of boxes or of one polygon " + what);
+  };
   if (c.method.formulation != Formulation::voronoi)
-    refuse("a surface file needs method.formulation = \"voronoi\"; delaunay takes a tetrahedral mesh as particles");
+    refuse("needs method.formulation = \"voronoi\"; delaunay takes a tetrahedral mesh as particles");
   if (c.method.boundary != BoundaryTreatment::consistent)
-    refuse("a surface file needs method.boundary = \"consistent\": the others want cells whose faces all bisect");
-  if (c.method.dimension != 3) refuse("a surface file needs method.dimension = 3");
+    refuse("needs method.boundary = \"consistent\": the others want cells whose faces all bisect");
+  if (c.method.dimension != 3) refuse("needs method.dimension = 3");
   if (c.output.fields.cells)
-    refuse(
-        "cells in a surface file cannot be written as polyhedra, for they may be hollow; set output.fields.cells = "
-        "false");
+    refuse("has cells that cannot be written as polyhedra, for they may be hollow; set output.fields.cells = false");
 }
 
-Surface surface_of_triangles(const BodySpec& body, const TriangleSurface& triangles, const Cells& cells) {
+Surface surface_of_triangles(const BodySpec& body, const ShapeSurface& shape, const Cells& cells) {
   Surface s;
   s.body = body.name;
-  const Bounds box = bounds(triangles);
+  const Bounds box = bounds(shape.surface);
   s.lower = box.lower;
   s.upper = box.upper;
-  for (const std::string& side : triangles.side_names) {
-    s.side_names.push_back({side});
-    if (!body.shape->name.empty()) s.side_names.back().push_back(body.shape->name + "." + side);
-  }
+  for (const std::string& side : shape.surface.side_names) s.side_names.push_back(shape.names.at(side));
   s.known_names = sorted_names(s.side_names);
   for (const BoundaryFace& f : cells.boundary) s.pieces.push_back({f.centroid, normalized(f.area), f.side, {}});
   return s;
 }
 
-BuiltBody build_in_surface(const Case& c, const BodySpec& body, const SurfaceShape& shape,
-                           const std::vector<BoundaryCondition>& conditions) {
+BuiltBody build_in_surface(const Case& c, const BodySpec& body, const std::vector<BoundaryCondition>& conditions) {
   check_surface_case(c, *body.shape);
-  CheckedSurface checked = load_surface(shape.path, shape.unit);
-  if (shape.split_angle) split_sides_at_edges(checked.surface, *shape.split_angle);
-  const SurfaceIndex index(checked.surface);
+  const ShapeSurface shape = shape_surface(*body.shape);
+  const SurfaceIndex index(shape.surface);
   BuiltBody b;
   PointSet given = place_particles(body.particles, index);
   relax_points(body, index, given.points, b.notes);
   b.user_number = hilbert_order(given.points);
-  BodyCells made{permuted(given.points, b.user_number), {}, volume(checked.surface)};
+  BodyCells made{permuted(given.points, b.user_number), {}, volume(shape.surface)};
   SurfaceCells found = surface_cells(made.X, index);
   made.cells = std::move(found.cells);
-  b.notes.push_back(fmt::format("surface of body \"{}\": {}", body.name, describe(checked)));
-  for (const SideSummary& side : summarize_sides(checked.surface))
+  b.notes.push_back(fmt::format("surface of body \"{}\": {} triangles, {} vertices", body.name, shape.surface.size(),
+                                shape.surface.vertices.size()));
+  b.notes.insert(b.notes.end(), shape.notes.begin(), shape.notes.end());
+  for (const SideSummary& side : summarize_sides(shape.surface))
     b.notes.push_back(
         fmt::format("  side \"{}\": area {:.6g} m2, normal ({:.3g}, {:.3g}, {:.3g}), centre ({:.6g}, "
                     "{:.6g}, {:.6g}) m",
@@ -228,7 +225,7 @@ BuiltBody build_in_surface(const Case& c, const BodySpec& body, const SurfaceSha
         fmt::format("  {} parts of cells, {:.3g} m3, are cut off from their particles and went to "
                     "neighbouring cells",
                     found.adopted, found.adopted_volume));
-  b.surface = surface_of_triangles(body, checked.surface, made.cells);
+  b.surface = surface_of_triangles(body, shape, made.cells);
   discretize_cells(c, made, conditions, b);
   return b;
 }
@@ -300,9 +297,7 @@ std::vector<BoundaryCondition> conditions_on(const Case& c, const BodySpec& body
 }
 
 BuiltBody build_body(const Case& c, const BodySpec& body, const std::vector<BoundaryCondition>& conditions) {
-  if (body.shape)
-    if (const auto* shape = std::get_if<SurfaceShape>(&body.shape->kind))
-      return build_in_surface(c, body, *shape, conditions);
+  if (body.shape && !has_convex_pieces(*body.shape)) return build_in_surface(c, body, conditions);
   std::optional<Solid> solid;
   if (body.shape) solid = build_solid(*body.shape);
   if (c.method.formulation == Formulation::voronoi && !solid)

@@ -21,6 +21,18 @@ inline Shape union_of(std::vector<Shape> parts) { return {"", somewhere(), Union
 
 inline Shape difference_of(std::vector<Shape> parts) { return {"", somewhere(), DifferenceShape{std::move(parts)}}; }
 
+inline Shape intersection_of(std::vector<Shape> parts) {
+  return {"", somewhere(), IntersectionShape{std::move(parts)}};
+}
+
+inline Shape cylinder(Vec3 from, Vec3 to, double radius, double tolerance, std::string name = "") {
+  return {std::move(name), somewhere(), ConeShape{from, to, {radius, radius}, tolerance}};
+}
+
+inline Shape ball(Vec3 center, double radius, double tolerance, std::string name = "") {
+  return {std::move(name), somewhere(), EllipsoidShape{center, {radius, radius, radius}, tolerance}};
+}
+
 inline Shape polygon(std::vector<std::array<double, 2>> points, double thickness, double base = 0.0) {
   return {"", somewhere(), PolygonShape{std::move(points), base, thickness}};
 }

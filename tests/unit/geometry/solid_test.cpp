@@ -147,6 +147,31 @@ TEST(Solid, PolygonMayHaveCornersOnAStraightEdge) {
   for (const ConvexPiece& piece : solid.pieces) EXPECT_LT(piece.upper.x - piece.lower.x, 2.1);
 }
 
+TEST(Solid, IntersectionsKeepWhatIsCommon) {
+  const Solid solid = build_solid(
+      intersection_of({box({0, 0, 0}, {2, 2, 2}, "a"), box({1, 1, -1}, {3, 3, 1}), box({0, 0, 0}, {9, 9, 9})}));
+  EXPECT_EQ(solid.volume, 1.0);
+  EXPECT_EQ(solid.lower, (Vec3{1, 1, 0}));
+  EXPECT_EQ(solid.upper, (Vec3{2, 2, 1}));
+  const std::vector<std::string> names = side_names(solid);
+  EXPECT_NE(std::find(names.begin(), names.end(), "a.+x"), names.end());
+}
+
+TEST(Solid, MovesStretchAndShiftBoxesAndPolygons) {
+  Shape both = union_of({box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1})});
+  std::get<UnionShape>(both.kind).parts[1].move = {{2, 1, 1}, {}, {0, 0, 0.5}};  // 2 <= x <= 4
+  both.move = {{1, 2, 3}, {}, {10, 20, 30}};
+  const Solid solid = build_solid(both);
+  EXPECT_EQ(solid.volume, 6.0 + 12.0);
+  EXPECT_EQ(solid.lower, (Vec3{10, 20, 30}));
+  EXPECT_EQ(solid.upper, (Vec3{14, 22, 34.5}));
+  Shape l = l_polygon();
+  const double before = build_solid(l).volume;
+  l.move = {{1, 2, 0.5}, {}, {0, 0, 1}};
+  EXPECT_NEAR(build_solid(l).volume, before, 1e-13 * before);
+  EXPECT_EQ(build_solid(l).lower.z, 1.0);
+}
+
 std::string error_of(const Shape& shape) {
   return message_of<InputError>([&] { build_solid(shape); });
 }
@@ -161,8 +186,9 @@ TEST(SolidErrors, SayWhereAndWhat) {
   expect_contains(error_of(polygon({{0, 0}, {1, 0}, {2, 0}}, 1.0)), "lie on each other");
   expect_contains(error_of(polygon({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}, 1.0)),
                   "edges 1 and 3 of the polygon cross or touch");
-  expect_contains(error_of(difference_of({box({0, 0, 0}, {1, 1, 1}), box({-1, -1, -1}, {2, 2, 2})})), "leaves nothing");
-  expect_contains(error_of(union_of({l_polygon(), box({0, 0, 0}, {1, 1, 1})})), "only be made of boxes");
+  expect_contains(error_of(difference_of({box({0, 0, 0}, {1, 1, 1}), box({-1, -1, -1}, {2, 2, 2})})), "leave nothing");
+  expect_contains(error_of(intersection_of({box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1})})), "leave nothing");
+  expect_contains(error_of(union_of({l_polygon(), box({0, 0, 0}, {1, 1, 1})})), "only boxes and polygons");
   expect_contains(error_of(union_of({})), "at least one part");
 }
 

@@ -166,7 +166,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"pressure = \"2 bar\"", "pressure = 1\ncondition = \"fixed\"", "33:1", "boundary.3.condition",
             "found pressure and condition together; expected exactly one of condition"},
         Bad{box, "{ name = \"a\" }", "7:9", "body.0.shape",
-            "found none; expected exactly one of box, union, difference, polygon or file"},
+            "found none; expected exactly one of box, polygon, cylinder, cone, sphere, ellipsoid, torus, file, union, "
+            "difference or intersection"},
         Bad{box, "{ box = { min = [0,0,0], max = [1,1,1] }, union = [] }", "7:51", "body.0.shape.union",
             "box and union together"},
         Bad{box, "{ union = [ { box = { min = [0,0,0], max = [1,1,1] } } ] }", "7:19", "body.0.shape.union",

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -281,6 +282,50 @@ TEST(Case, TakesTwoComponentsInTwoDimensions) {
   EXPECT_EQ(std::get<BoxShape>(b.bodies[0].shape->kind).max, (Vec3{2.0, 1.0, 1.0}));
 }
 
+Case with_shape(const std::string& shape) {
+  const std::string line = "shape = { box = { min = [0, 0, 0], max = [\"1 m\", \"50 cm\", 0.1] } }";
+  return sample::read(sample::with(line, "shape = " + shape));
+}
+
+TEST(Case, TakesCurvedShapes) {
+  const Case c = with_shape(R"({ intersection = [
+      { cylinder = { from = [0, 0, 0], to = [0, 0, "1 cm"], radius = "2 mm", tolerance = "1 um" } },
+      { cone = { from = [0, 0, 0], to = [1, 0, 0], radius = 3 } }, { sphere = { center = [1, 2, 3], radius = 4 } },
+      { ellipsoid = { semi_axes = [1, 2, 3] } },
+      { torus = { axis = [1, 0, 0], radius = 2, tube_radius = 1 } } ] })");
+  const auto& parts = std::get<IntersectionShape>(c.bodies[0].shape->kind).parts;
+  ASSERT_EQ(parts.size(), 5U);
+  const auto& cylinder = std::get<ConeShape>(parts[0].kind);
+  EXPECT_EQ(cylinder.to, (Vec3{0, 0, 0.01}));
+  EXPECT_EQ(cylinder.radii, (std::array<double, 2>{2e-3, 2e-3}));
+  EXPECT_EQ(cylinder.tolerance, 1e-6);
+  EXPECT_EQ(std::get<ConeShape>(parts[1].kind).radii, (std::array<double, 2>{3.0, 0.0}));
+  EXPECT_EQ(std::get<EllipsoidShape>(parts[2].kind).center, (Vec3{1, 2, 3}));
+  EXPECT_EQ(std::get<EllipsoidShape>(parts[2].kind).semi_axes, (Vec3{4, 4, 4}));
+  EXPECT_FALSE(std::get<EllipsoidShape>(parts[3].kind).tolerance);
+  EXPECT_EQ(std::get<TorusShape>(parts[4].kind).axis, (Vec3{1, 0, 0}));
+}
+
+TEST(Case, TakesMovesOfShapes) {
+  const Case c = with_shape(
+      R"({ box = { min = [0, 0, 0], max = [1, 1, 1] }, scale = 2, rotate = { angle = "90 deg", about = [1, 0, 0] }, translate = ["1 mm", 0, 0] })");
+  const ShapeMove& move = c.bodies[0].shape->move;
+  EXPECT_EQ(move.scale, (Vec3{2, 2, 2}));
+  EXPECT_EQ(move.rotation->axis, (Vec3{0, 0, 1}));
+  EXPECT_EQ(move.rotation->angle, 90.0);
+  EXPECT_EQ(move.translation, (Vec3{1e-3, 0, 0}));
+  const auto angle = [](const std::string& text) {
+    return with_shape("{ sphere = { radius = 1 }, rotate = { angle = " + text + " } }")
+        .bodies[0]
+        .shape->move.rotation->angle;
+  };
+  EXPECT_EQ(angle("30"), 30.0);
+  EXPECT_EQ(angle("\"30\""), 30.0);
+  EXPECT_NEAR(angle("\"0.5 rad\""), 28.647889756541160, 1e-14);
+  for (const double whole : {1.0, 29.0, 57.0, 180.0, 270.0, -90.0, 360.0})
+    EXPECT_EQ(angle(fmt::format("\"{} deg\"", whole)), whole);
+}
+
 TEST(EffectiveCase, ReadsBackToTheSameCase) {
   const std::vector<std::string> texts = {
       sample::text,
@@ -289,7 +334,9 @@ TEST(EffectiveCase, ReadsBackToTheSameCase) {
       sample::with("particles = { lattice = \"cubic\", counts = [21, 11, 3], jitter = 0.25, seed = 7 }",
                    "particles = { file = \"a b/\\\"c\\\".csv\" }"),
       sample::with("young = \"1 MPa\"", "young = 123456.78901234567"),
-      sample::with("poisson = 0.45", "poisson = 1e-30")};
+      sample::with("poisson = 0.45", "poisson = 1e-30"),
+      sample::with("shape = { box = { min = [0, 0, 0], max = [\"1 m\", \"50 cm\", 0.1] } }",
+                   "shape = { sphere = { radius = 1 }, scale = 2, rotate = { angle = \"0.1 rad\" } }")};
   for (const std::string& text : texts) {
     const Case first = sample::read(text);
     // Elsewhere, so that file names must not depend on where the file lies.
