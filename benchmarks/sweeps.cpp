@@ -36,7 +36,7 @@ struct SweptCube {
   System system;
   State state;
   TileScratch scratch;
-  Field<Columns> F;
+  Field<Tensor> F;
   Field<Double4> f, rim_f;
 };
 

@@ -6,6 +6,7 @@ namespace tessera {
 /// component of four vectors or tensors. Arrays of it are Fields: the compiler takes its alignment for granted.
 using Double4 = double __attribute__((vector_size(32)));
 
+using Double2 = double __attribute__((vector_size(16)));
 using Mask4 = long long __attribute__((vector_size(32)));
 
 /// Four vectors, component by component.
@@ -18,6 +19,10 @@ struct Lanes9 {
   Double4 xx{}, xy{}, xz{}, yx{}, yy{}, yz{}, zx{}, zy{}, zz{};
 };
 
+inline Lanes3 operator+(const Lanes3& a, const Lanes3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Lanes3 operator-(const Lanes3& a, const Lanes3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Lanes3 operator*(const Double4& s, const Lanes3& a) { return {s * a.x, s * a.y, s * a.z}; }
+
 inline double sum(const Double4& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
 /// From four vectors (x, y, z, anything) to their components.
@@ -29,12 +34,33 @@ inline Lanes3 transposed(const Double4& v0, const Double4& v1, const Double4& v2
           __builtin_shuffle(xz01, xz23, Mask4{2, 3, 6, 7})};
 }
 
-/// The sum of the four vectors, with a zero at the end.
-inline Double4 sum(const Lanes3& l) {
+/// From the components of four vectors to the vectors, each with a zero at the end.
+struct FourVectors {
+  Double4 v[4];
+};
+inline FourVectors transposed(const Lanes3& l) {
   const Double4 zero{};
-  const Double4 xy = __builtin_shuffle(l.x, l.y, Mask4{0, 4, 2, 6}) + __builtin_shuffle(l.x, l.y, Mask4{1, 5, 3, 7});
-  const Double4 z0 = __builtin_shuffle(l.z, zero, Mask4{0, 4, 2, 6}) + __builtin_shuffle(l.z, zero, Mask4{1, 5, 3, 7});
-  return __builtin_shuffle(xy, z0, Mask4{0, 1, 4, 5}) + __builtin_shuffle(xy, z0, Mask4{2, 3, 6, 7});
+  const Double4 xy02 = __builtin_shuffle(l.x, l.y, Mask4{0, 4, 2, 6}),
+                xy13 = __builtin_shuffle(l.x, l.y, Mask4{1, 5, 3, 7});
+  const Double4 z02 = __builtin_shuffle(l.z, zero, Mask4{0, 4, 2, 6}),
+                z13 = __builtin_shuffle(l.z, zero, Mask4{1, 5, 3, 7});
+  return {{__builtin_shuffle(xy02, z02, Mask4{0, 1, 4, 5}), __builtin_shuffle(xy13, z13, Mask4{0, 1, 4, 5}),
+           __builtin_shuffle(xy02, z02, Mask4{2, 3, 6, 7}), __builtin_shuffle(xy13, z13, Mask4{2, 3, 6, 7})}};
+}
+
+/// Two consecutive numbers of four rows, the first of each and the second of each.
+struct TwoLanes {
+  Double4 first, second;
+};
+inline TwoLanes load_pairs(const double* row0, const double* row1, const double* row2, const double* row3) {
+  const auto load = [](const double* row) {
+    Double2 pair;
+    __builtin_memcpy(&pair, row, sizeof pair);
+    return pair;
+  };
+  const Double4 rows02 = __builtin_shufflevector(load(row0), load(row2), 0, 1, 2, 3),
+                rows13 = __builtin_shufflevector(load(row1), load(row3), 0, 1, 2, 3);
+  return {__builtin_shuffle(rows02, rows13, Mask4{0, 4, 2, 6}), __builtin_shuffle(rows02, rows13, Mask4{1, 5, 3, 7})};
 }
 
 /// Natural logarithms of positive, finite, normal numbers, to one unit in the last place; of others the result has no

@@ -104,7 +104,7 @@ System build(Index particles, Formulation formulation, std::map<std::string, dou
 void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   const State state = reference_state(s);
   const auto n = static_cast<std::size_t>(s.particles());
-  Field<Columns> F(n);
+  Field<Tensor> F(n);
   Field<Double4> f(n), rim_f(s.tiles.rim.size());
   parallel::Workspaces<TileScratch> scratches([&] { return std::make_unique<TileScratch>(s); });
   const auto sweep = [&](auto&& body) {

@@ -5,28 +5,29 @@ namespace tessera {
 namespace {
 
 constexpr double local = sizeof(std::uint16_t), index = sizeof(Index), offset = sizeof(Offset), number = sizeof(double);
-constexpr double vec3 = sizeof(Vec3), vector = sizeof(Double4), tensor = sizeof(Columns);
+constexpr double vec3 = sizeof(Vec3), vector = sizeof(Double4), tensor = sizeof(Tensor);
+constexpr double stiffness = sizeof(decltype(Tiles::area_over_length)::value_type);
 constexpr double incoming = sizeof(Tiles::Incoming);
+constexpr double row = 1.25 * local;  // place in the order, a quarter of a length
 
 /// Sizes of the arrays relative to the number of particles.
 struct PerParticle {
   explicit PerParticle(const System& s)
       : bonds(static_cast<double>(s.tiles.bonds) / static_cast<double>(s.particles())),
-        lanes(static_cast<double>(s.tiles.neighbour.size()) / static_cast<double>(s.particles())),
+        slots(static_cast<double>(s.tiles.neighbour.size()) / static_cast<double>(s.particles())),
         rim(static_cast<double>(s.tiles.rim.size()) / static_cast<double>(s.particles())) {}
 
-  double bonds, lanes, rim;
+  double bonds, slots, rim;
 };
 
 }  // namespace
 
 double bytes_per_particle_step(const System& s) {
   const PerParticle n(s);
-  const double strain =
-      vector + local + number + n.rim * (index + vector) + n.lanes * local + n.bonds * vec3 + 2.0 * tensor;
-  const double contact_and_stress = (1.0 + n.rim) * (vector + vec3 + tensor) + n.rim * index + local +
-                                    n.lanes * (local + number) + number + 2.0 * vector;
-  const double force = vec3 + n.bonds * (vec3 + incoming) + (1.0 + n.rim) * local + n.rim * 2.0 * vector;
+  const double strain = vector + row + number + n.rim * (index + vector) + n.slots * (local + vec3) + 2.0 * tensor;
+  const double contact_and_stress = (1.0 + n.rim) * (vector + vec3 + tensor) + n.rim * index + row +
+                                    n.slots * (local + stiffness) + number + 2.0 * vector;
+  const double force = vec3 + n.slots * vec3 + n.bonds * incoming + (1.0 + n.rim) * local + n.rim * 2.0 * vector;
   const double rims = offset + n.rim * (index + vector) + 2.0 * vector;
   const double kick_and_drift = number + vector + 2.0 * vector + 2.0 * vector;
   return strain + contact_and_stress + force + rims + kick_and_drift;
@@ -34,7 +35,7 @@ double bytes_per_particle_step(const System& s) {
 
 double bytes_per_particle(const System& s) {
   const PerParticle n(s);
-  const double bonds = n.bonds * (vec3 + incoming) + n.lanes * (local + number) + local;
+  const double bonds = n.bonds * incoming + n.slots * (vec3 + local + stiffness) + row;
   const double rims = n.rim * (2.0 * index + local + vector) + local + offset;
   const double constants = vec3 /* X */ + number /* V */ + vec3 /* B_aa */ + number /* m */;
   const double state = 2.0 * vector /* x, v */ + vector /* f */ + tensor /* F */;

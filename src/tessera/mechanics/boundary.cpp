@@ -44,21 +44,23 @@ void fill_boundary_nodes(const System& s, std::span<const Vec3> walls, Double4* 
   });
 }
 
-void add_boundary_strain(const System& s, const Double4* x, Columns* F) {
+void add_boundary_strain(const System& s, const Double4* x, Tensor* F) {
   for_each_owned(s, [&](Index f, Index) {
     const BoundaryNode& n = node(s, f);
     const double inverse_volume = 1.0 / s.d.volume[static_cast<std::size_t>(n.owner)];
-    add_outer(F[n.owner], x[s.particles() + f] - x[n.owner], inverse_volume * n.B_af);
+    Columns F_a = to_kernel(F[n.owner]);
+    add_outer(F_a, x[s.particles() + f] - x[n.owner], inverse_volume * n.B_af);
+    F[n.owner] = to_tensor(F_a);
   });
 }
 
-double add_boundary_bonds(const System& s, Index k, const Double4* x, const Columns& F, Columns& T, Double4& f,
+double add_boundary_bonds(const System& s, Index k, const Double4* x, const Tensor& F, Columns& T, Double4& f,
                           Double4* R) {
   double energy = 0.0;
   for_each_node(s, k, [&](Index g) {
     const BoundaryNode& n = node(s, g);
     const NodeMechanics& m = mechanics(s, g);
-    const Vec3 u = to_vec3(x[s.particles() + g] - x[n.owner] - apply(F, m.X_af));
+    const Vec3 u = to_vec3(x[s.particles() + g] - x[n.owner] - apply(to_kernel(F), m.X_af));
     const Vec3 pull = m.stiffness * u;
     const Double4 force = to_kernel(pull);
     add_outer(T, force, (-1.0 / s.d.volume[static_cast<std::size_t>(n.owner)]) * m.X_af);

@@ -61,7 +61,7 @@ void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
   finish(state, action);
 }
 
-void Forces::restore_previous_deformation(Field<Columns> F) {
+void Forces::restore_previous_deformation(Field<Tensor> F) {
   if (!F.empty()) F_ = std::move(F);  // evaluate() moves it into its place
 }
 
@@ -133,7 +133,7 @@ void Forces::finish(const State& state, const ExternalAction& action) {
 Forces::Internal Forces::internal(const State& state) const {
   const System& s = system_;
   const auto particles = static_cast<std::size_t>(s.particles());
-  Internal result{Field<Columns>(particles), Field<Double4>(particles)};
+  Internal result{Field<Tensor>(particles), Field<Double4>(particles)};
   Field<Double4> R(static_cast<std::size_t>(s.boundary_nodes())), rim_f(s.tiles.rim.size());
   Field<Columns> owners_P(s.owners.size());
   const Vec3* B = s.d.direct ? s.tiles.direct_B.data() : s.tiles.B.data();
@@ -147,8 +147,8 @@ Forces::Internal Forces::internal(const State& state) const {
     stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch);
     for (Index a = t.begin; a < t.end; ++a) {
       const auto k = static_cast<std::size_t>(a);
-      if (!viscous_.P_previous.empty()) P[a - t.begin] = P[a - t.begin] + viscous_.P_previous[k];
-      result.P[k] = P[a - t.begin];
+      if (!viscous_.P_previous.empty()) P[a - t.begin] = P[a - t.begin] + to_kernel(viscous_.P_previous[k]);
+      result.P[k] = to_tensor(P[a - t.begin]);
     }
     for_each_owner(s, tile, [&](Index k, Index a) {
       owners_P[static_cast<std::size_t>(k)] = P[a - t.begin];

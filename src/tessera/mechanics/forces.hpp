@@ -38,22 +38,22 @@ class Forces {
   Index stress_points() const { return system_.stress_points; }
 
   const Field<Double4>& total() const { return f_; }  // [N], reactions on constrained particles left out
-  const Field<Columns>& deformation_gradient() const { return F_; }
+  const Field<Tensor>& deformation_gradient() const { return F_; }
   const std::vector<Vec3>& reactions() const { return reactions_; }  // force on what prescribes each node [N]
   const StressSums& sums() const { return sums_; }                   // of the last evaluation
 
   /// P_a of every particle with its viscous part [Pa], and what it exerts on the particles [N] (reactions of boundary
   /// faces included). For output, at the state of the last evaluation.
   struct Internal {
-    Field<Columns> P;
+    Field<Tensor> P;
     Field<Double4> force;
   };
   Internal internal(const State& state) const;
 
   /// The deformation one step ago, from which viscous stresses take their rate; empty without viscosity.
-  const Field<Columns>& previous_deformation() const { return viscous_.F_previous; }
+  const Field<Tensor>& previous_deformation() const { return viscous_.F_previous; }
   /// Puts it back before the state of a checkpoint is evaluated again.
-  void restore_previous_deformation(Field<Columns> F);
+  void restore_previous_deformation(Field<Tensor> F);
 
  private:
   void strain(State& state, const ExternalAction& action);
@@ -66,7 +66,7 @@ class Forces {
 
   const System& system_;
   bool split_;
-  Field<Columns> F_;
+  Field<Tensor> F_;
   Field<Double4> f_, R_;
   Field<Double4> rim_f_, rim_f_direct_;  // what tiles do to their rims; the second for the rows of [V 42]
   Field<Columns> owners_P_;              // P of each owner of boundary nodes, when split()

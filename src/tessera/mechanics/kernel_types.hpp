@@ -11,6 +11,11 @@ struct Columns {
   Double4 c0, c1, c2;
 };
 
+/// The same in the arrays that are streamed: nine numbers, column by column.
+struct Tensor {
+  double m[9];
+};
+
 inline Double4 to_kernel(const Vec3& v) { return Double4{v.x, v.y, v.z, 0.0}; }
 inline Vec3 to_vec3(const Double4& v) { return {v[0], v[1], v[2]}; }
 
@@ -18,8 +23,21 @@ inline Columns to_kernel(const Mat3& m) {
   return {Double4{m(0, 0), m(1, 0), m(2, 0), 0.0}, Double4{m(0, 1), m(1, 1), m(2, 1), 0.0},
           Double4{m(0, 2), m(1, 2), m(2, 2), 0.0}};
 }
+inline Columns to_kernel(const Tensor& t) {
+  return {Double4{t.m[0], t.m[1], t.m[2], 0.0}, Double4{t.m[3], t.m[4], t.m[5], 0.0},
+          Double4{t.m[6], t.m[7], t.m[8], 0.0}};
+}
+inline Tensor to_tensor(const Columns& t) {
+  return {{t.c0[0], t.c0[1], t.c0[2], t.c1[0], t.c1[1], t.c1[2], t.c2[0], t.c2[1], t.c2[2]}};
+}
+inline Tensor to_tensor(const Mat3& m) {
+  return {{m(0, 0), m(1, 0), m(2, 0), m(0, 1), m(1, 1), m(2, 1), m(0, 2), m(1, 2), m(2, 2)}};
+}
 inline Mat3 to_mat3(const Columns& t) {
   return {{t.c0[0], t.c1[0], t.c2[0], t.c0[1], t.c1[1], t.c2[1], t.c0[2], t.c1[2], t.c2[2]}};
+}
+inline Mat3 to_mat3(const Tensor& t) {
+  return {{t.m[0], t.m[3], t.m[6], t.m[1], t.m[4], t.m[7], t.m[2], t.m[5], t.m[8]}};
 }
 
 inline double dot3(const Double4& a, const Double4& b) {

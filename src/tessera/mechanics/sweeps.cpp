@@ -5,10 +5,6 @@
 
 #include "tessera/laws/law_lanes.hpp"
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 // One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__OPTIMIZE_SIZE__) && defined(__OPTIMIZE__)
@@ -35,34 +31,13 @@ inline void fetch(const T* value) {
 
 inline const Tile& tile_of(const System& s, Index tile) { return s.tiles.tiles[static_cast<std::size_t>(tile)]; }
 
-inline Columns minus_half(const Columns& F) { return {-0.5 * F.c0, -0.5 * F.c1, -0.5 * F.c2}; }
+constexpr Index quad = 4;
 
-// Arrays larger than this are not in the cache when they are read again [bytes].
-constexpr std::size_t largest_cached = std::size_t{16} << 20U;
-
-/// Writes a tensor; past the cache the processor need not fetch first what is overwritten.
-inline void store(Columns& to, const Columns& value, bool past_the_cache) {
-#if defined(__SSE2__)
-  if (past_the_cache) {
-    auto* numbers = reinterpret_cast<double*>(&to);
-    const Double4* columns = &value.c0;
-    for (int c = 0; c < 3; ++c) {
-      _mm_stream_pd(numbers + 4 * c, __builtin_shufflevector(columns[c], columns[c], 0, 1));
-      _mm_stream_pd(numbers + 4 * c + 2, __builtin_shufflevector(columns[c], columns[c], 2, 3));
-    }
-    return;
-  }
-#else
-  static_cast<void>(past_the_cache);
-#endif
-  to = value;
-}
-
-/// Makes what was written past the cache visible to other threads.
-inline void fence() {
-#if defined(__SSE2__)
-  _mm_sfence();
-#endif
+/// Writes a tensor column by column; each of the first two stores overlaps the next.
+inline void store(Tensor& to, const Columns& t) {
+  __builtin_memcpy(to.m, &t.c0, sizeof(Double4));
+  __builtin_memcpy(to.m + 3, &t.c1, sizeof(Double4));
+  __builtin_memcpy(to.m + 6, &t.c2, 3 * sizeof(double));
 }
 
 }  // namespace
@@ -81,7 +56,7 @@ TileScratch::TileScratch(const System& s)
       nodes(static_cast<std::size_t>(s.tiles.most_nodes)),
       T(static_cast<std::size_t>(s.tiles.most_particles)) {}
 
-TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Columns* F, TileScratch& scratch) {
+TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Tensor* F, TileScratch& scratch) {
   const Tile& tile = tile_of(s, k);
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const Index* rim = s.tiles.rim.data() + tile.rim;
@@ -91,56 +66,64 @@ TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Col
     fetch(x + rim[std::min(i + lookahead, rim_size - 1)]);
     x_local[own + i] = x[rim[i]];
   }
-  const std::uint16_t* count = s.tiles.count.data() + tile.begin;
-  const std::uint16_t* neighbour = s.tiles.neighbour.data() + tile.lane;
-  const Vec3* B = s.tiles.B.data() + tile.bond;
+  const Vec3* B = s.tiles.B.data() + tile.slot;
+  const std::uint16_t* neighbour = s.tiles.neighbour.data() + tile.slot;
+  const std::uint16_t* order = s.tiles.order.data() + quad * tile.quad;
+  const std::uint16_t* length = s.tiles.length.data() + tile.quad;
   const double* volume = s.d.volume.data() + tile.begin;
-  Columns* __restrict F_own = F + tile.begin;
-  const bool past_the_cache = s.d.X.size() * sizeof(Columns) > largest_cached;
-  for (Index a = 0; a < own; ++a) {
-    const Double4 x_a = x_local[a];
-    Columns VF{};
-    const Index bonds = count[a];
-    for (Index i = 0; i < bonds; ++i) {
-      __builtin_prefetch(reinterpret_cast<const char*>(B + i) + bytes_ahead);
-      add_outer(VF, x_local[neighbour[i]] - x_a, B[i]);
+  Tensor* __restrict F_own = F + tile.begin;
+  for (Index q = 0; q < tile.quads(); ++q, order += quad) {
+    const Double4 x_a[quad] = {x_local[order[0]], x_local[order[1]], x_local[order[2]], x_local[order[3]]};
+    Columns VF[quad]{};
+    for (Index i = 0; i < length[q]; ++i, neighbour += quad, B += quad) {
+      __builtin_prefetch(reinterpret_cast<const char*>(B) + bytes_ahead);
+      __builtin_prefetch(reinterpret_cast<const char*>(B) + bytes_ahead + 64);
+      for (Index lane = 0; lane < quad; ++lane) add_outer(VF[lane], x_local[neighbour[lane]] - x_a[lane], B[lane]);
     }
-    neighbour += (bonds + 3) / 4 * 4;
-    B += bonds;
-    store(F_own[a], (1.0 / volume[a]) * VF, past_the_cache);
+    const Index lanes = std::min(quad, own - quad * q);
+    for (Index lane = 0; lane < lanes; ++lane) store(F_own[order[lane]], (1.0 / volume[order[lane]]) * VF[lane]);
   }
-  if (past_the_cache) fence();
 }
 
 namespace {
 
-/// Sums over the bonds of one particle, four bonds at a time; the same as bond_response().
+/// Nodes of four particles.
+struct FourNodes {
+  Lanes3 F0, F1, F2;  // the columns of F/2
+  Lanes3 x, X;
+};
+
+inline FourNodes load_nodes(const TileNode* nodes, const std::uint16_t* local) {
+  const double *n0 = nodes[local[0]].value, *n1 = nodes[local[1]].value, *n2 = nodes[local[2]].value,
+               *n3 = nodes[local[3]].value;
+  const auto pairs = [&](Index k) { return load_pairs(n0 + k, n1 + k, n2 + k, n3 + k); };
+  const TwoLanes p0 = pairs(0), p2 = pairs(2), p4 = pairs(4), p6 = pairs(6), p8 = pairs(8), p10 = pairs(10),
+                 p12 = pairs(12), p14 = pairs(14);
+  return {{p0.first, p0.second, p2.first},
+          {p2.second, p4.first, p4.second},
+          {p6.first, p6.second, p8.first},
+          {p8.second, p10.first, p10.second},
+          {p12.first, p12.second, p14.first}};
+}
+
+/// Sums over the bonds of four particles.
 struct BondSums {
-  Lanes3 force;                         // - sum dU/dx
+  Lanes3 force;                         // sum dU/dx
   Lanes3 moment_0, moment_1, moment_2;  // the columns of - sum dU/dy (x) X
+  Double4 energy{};                     // twice the bonds' energies
 };
 
 struct ContactStiffness {
   double tangential, difference;  // Kt and Kn - Kt per area over length [Pa]
 };
 
-/// Adds four bonds of particle a to the sums and returns their energies times two. Branches are taken from the
-/// neighbour to a: that turns the signs of u and of the forces, and leaves the moments.
-inline Double4 add_bonds(const TileNode& a, const TileNode* nodes, const std::uint16_t* neighbour,
-                         const Double4& area_over_length, ContactStiffness stiffness, BondSums& sums) {
-  const TileNode &b0 = nodes[neighbour[0]], &b1 = nodes[neighbour[1]], &b2 = nodes[neighbour[2]],
-                 &b3 = nodes[neighbour[3]];
-  const auto difference = [&](Double4 TileNode::*v) {
-    return transposed(a.*v - b0.*v, a.*v - b1.*v, a.*v - b2.*v, a.*v - b3.*v);
-  };
-  const auto minus_mean = [&](Double4 Columns::*c) {
-    const Double4 F = a.minus_half_F.*c;
-    return transposed(F + b0.minus_half_F.*c, F + b1.minus_half_F.*c, F + b2.minus_half_F.*c, F + b3.minus_half_F.*c);
-  };
-  const Lanes3 X = difference(&TileNode::X), x = difference(&TileNode::x);
-  const Lanes3 F0 = minus_mean(&Columns::c0), F1 = minus_mean(&Columns::c1), F2 = minus_mean(&Columns::c2);
-  const Lanes3 u{x.x + F0.x * X.x + F1.x * X.y + F2.x * X.z, x.y + F0.y * X.x + F1.y * X.y + F2.y * X.z,
-                 x.z + F0.z * X.x + F1.z * X.y + F2.z * X.z};  // [D 7]
+/// Adds a bond of each of four particles to the sums; the same as bond_response().
+inline void add_bonds(const FourNodes& a, const FourNodes& b, const Double4& area_over_length,
+                      ContactStiffness stiffness, BondSums& sums) {
+  const Lanes3 X = b.X - a.X, x = b.x - a.x;
+  const Lanes3 F0 = a.F0 + b.F0, F1 = a.F1 + b.F1, F2 = a.F2 + b.F2;
+  const Lanes3 u{x.x - F0.x * X.x - F1.x * X.y - F2.x * X.z, x.y - F0.y * X.x - F1.y * X.y - F2.y * X.z,
+                 x.z - F0.z * X.x - F1.z * X.y - F2.z * X.z};  // [D 7]
   const Double4 inverse_square = 1.0 / (x.x * x.x + x.y * x.y + x.z * x.z);
   const Double4 p = (u.x * x.x + u.y * x.y + u.z * x.z) * inverse_square;  // u^n = p x_ab, [D 10]
   const Double4 K = area_over_length * stiffness.tangential, q = (area_over_length * stiffness.difference) * p;
@@ -156,16 +139,18 @@ inline Double4 add_bonds(const TileNode& a, const TileNode* nodes, const std::ui
   sums.force.x += elastic.x + q * (u.x - p * x.x);  // dU/dx, [D 57]
   sums.force.y += elastic.y + q * (u.y - p * x.y);
   sums.force.z += elastic.z + q * (u.z - p * x.z);
-  return elastic.x * u.x + elastic.y * u.y + elastic.z * u.z;
+  sums.energy += elastic.x * u.x + elastic.y * u.y + elastic.z * u.z;
 }
 
-inline void load_nodes(const System& s, Index k, const Double4* x, const Columns* F, TileNode* __restrict nodes) {
+inline void fill_nodes(const System& s, Index k, const Double4* x, const Tensor* F, TileNode* __restrict nodes) {
   const Tile& tile = tile_of(s, k);
   const Vec3* X = s.d.X.data();
-  const auto load = [&](TileNode& node, Index b) {
-    node = {x[b], Double4{X[b].x, X[b].y, X[b].z, 0.0}, minus_half(F[b])};
+  const auto fill = [&](TileNode& node, Index b) {
+    for (int i = 0; i < 9; ++i) node.value[i] = 0.5 * F[b].m[i];
+    for (int i = 0; i < 3; ++i) node.value[9 + i] = x[b][i];
+    node.value[12] = X[b].x, node.value[13] = X[b].y, node.value[14] = X[b].z;
   };
-  for (Index b = tile.begin; b < tile.end; ++b) load(nodes[b - tile.begin], b);
+  for (Index b = tile.begin; b < tile.end; ++b) fill(nodes[b - tile.begin], b);
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const Index* rim = s.tiles.rim.data() + tile.rim;
   for (Index i = 0; i < rim_size; ++i) {
@@ -173,51 +158,59 @@ inline void load_nodes(const System& s, Index k, const Double4* x, const Columns
     fetch(F + ahead);
     fetch(x + ahead);
     fetch(X + ahead);
-    load(nodes[own + i], rim[i]);
+    fill(nodes[own + i], rim[i]);
   }
 }
 
 }  // namespace
 
-TESSERA_KERNEL double contact_sweep(const System& s, Index k, const Double4* x, const Columns* F, Double4* f,
+TESSERA_KERNEL double contact_sweep(const System& s, Index k, const Double4* x, const Tensor* F, Double4* f,
                                     TileScratch& scratch) {
   const Tile& tile = tile_of(s, k);
-  load_nodes(s, k, x, F, scratch.nodes.data());
+  fill_nodes(s, k, x, F, scratch.nodes.data());
   const Material& m = s.materials[static_cast<std::size_t>(tile.material)];
   const double Kn = m.contact.normal * m.young, Kt = m.contact.tangential * m.shear_modulus();
   const ContactStiffness stiffness{Kt, Kn - Kt};
   const TileNode* nodes = scratch.nodes.data();
   Columns* __restrict T = scratch.T.data();
   Double4* __restrict f_own = f + tile.begin;
-  const std::uint16_t* count = s.tiles.count.data() + tile.begin;
-  const std::uint16_t* neighbour = s.tiles.neighbour.data() + tile.lane;
-  const double* area_over_length = s.tiles.area_over_length.data() + tile.lane;
+  const std::uint16_t* neighbour = s.tiles.neighbour.data() + tile.slot;
+  const auto* area_over_length = s.tiles.area_over_length.data() + tile.slot;
+  const std::uint16_t* order = s.tiles.order.data() + quad * tile.quad;
+  const std::uint16_t* length = s.tiles.length.data() + tile.quad;
   const double* volume = s.d.volume.data() + tile.begin;
   // The next sweep reads the gradient vectors of the tile in another order, so they are brought near.
-  const char* B = reinterpret_cast<const char*>(s.tiles.B.data() + tile.bond);
+  const char* B = reinterpret_cast<const char*>(s.tiles.B.data() + tile.slot);
   Double4 energy{};
-  for (Index a = 0; a < tile.size(); ++a) {
-    const TileNode node = nodes[a];
+  for (Index q = 0; q < tile.quads(); ++q, order += quad) {
+    const FourNodes a = load_nodes(nodes, order);
     BondSums sums;
-    for (Index groups = (count[a] + 3) / 4; groups > 0; --groups, neighbour += 4, area_over_length += 4, B += 96) {
+    for (Index i = 0; i < length[q]; ++i, neighbour += quad, area_over_length += quad, B += quad * sizeof(Vec3)) {
       __builtin_prefetch(B);
       __builtin_prefetch(B + 64);
       const Double4 A_L{area_over_length[0], area_over_length[1], area_over_length[2], area_over_length[3]};
-      energy += add_bonds(node, nodes, neighbour, A_L, stiffness, sums);
+      add_bonds(a, load_nodes(nodes, neighbour), A_L, stiffness, sums);
     }
-    f_own[a] = -sum(sums.force);
-    const double share = -0.5 / volume[a];
-    T[a] = {share * sum(sums.moment_0), share * sum(sums.moment_1), share * sum(sums.moment_2)};
+    energy += sums.energy;
+    const Double4 share = -0.5 / Double4{volume[order[0]], volume[order[1]], volume[order[2]], volume[order[3]]};
+    const FourVectors force = transposed(sums.force), T0 = transposed(share * sums.moment_0),
+                      T1 = transposed(share * sums.moment_1), T2 = transposed(share * sums.moment_2);
+    const Index lanes = std::min(quad, tile.size() - quad * q);
+    for (Index lane = 0; lane < lanes; ++lane) {
+      f_own[order[lane]] = force.v[lane];
+      T[order[lane]] = {T0.v[lane], T1.v[lane], T2.v[lane]};
+    }
   }
   return 0.25 * sum(energy);
 }
 
 namespace {
 
-inline Lanes9 to_lanes(const Columns& a, const Columns& b, const Columns& c, const Columns& d) {
-  const Lanes3 c0 = transposed(a.c0, b.c0, c.c0, d.c0), c1 = transposed(a.c1, b.c1, c.c1, d.c1),
-               c2 = transposed(a.c2, b.c2, c.c2, d.c2);
-  return {c0.x, c1.x, c2.x, c0.y, c1.y, c2.y, c0.z, c1.z, c2.z};
+inline Lanes9 to_lanes(const Tensor& a, const Tensor& b, const Tensor& c, const Tensor& d) {
+  const auto pairs = [&](Index k) { return load_pairs(a.m + k, b.m + k, c.m + k, d.m + k); };
+  const TwoLanes p0 = pairs(0), p2 = pairs(2), p4 = pairs(4), p6 = pairs(6);
+  const Double4 p8{a.m[8], b.m[8], c.m[8], d.m[8]};
+  return {p0.first, p2.second, p6.first, p0.second, p4.first, p6.second, p2.first, p4.second, p8};
 }
 
 /// Tensor k of four.
@@ -227,19 +220,19 @@ inline Columns columns_of(const Lanes9& t, int k) {
 }
 
 /// Adds the viscous stress of particle a, [D 61, 62], to P; returns the work that it has taken since the last time [J].
-inline double add_viscous_stress(const System& s, Index a, const Columns& F, ViscousMemory& viscous, double dt,
+inline double add_viscous_stress(const System& s, Index a, const Tensor& F, ViscousMemory& viscous, double dt,
                                  Columns& P) {
   const auto k = static_cast<std::size_t>(a);
   const Mat3 F_a = to_mat3(F), dF = F_a - to_mat3(viscous.F_previous[k]);
   const Mat3 P_viscous = viscous_stress(s.viscosity[k], F_a, (1.0 / dt) * dF);
   const double work = 0.5 * s.d.volume[k] * contract(P_viscous + to_mat3(viscous.P_previous[k]), dF);
-  viscous.P_previous[k] = to_kernel(P_viscous);
-  P = P + viscous.P_previous[k];
+  viscous.P_previous[k] = to_tensor(P_viscous);
+  P = P + to_kernel(P_viscous);
   return work;
 }
 
 template <class Law>
-inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, const Columns* F,
+inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, const Tensor* F,
                             const HistorySpan& history, ViscousMemory* viscous, double dt, TileScratch& scratch) {
   const double* volume = s.d.volume.data();
   Columns* __restrict T = scratch.T.data();
@@ -272,11 +265,11 @@ inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, c
 }
 
 // One clone of each law for every instruction set.
-#define TESSERA_STRESS_KERNEL(Law)                                                                             \
-  TESSERA_KERNEL StressSums stress_kernel(const System& s, const Tile& tile, const Law& law, const Columns* F, \
-                                          const HistorySpan& history, ViscousMemory* viscous, double dt,       \
-                                          TileScratch& scratch) {                                              \
-    return stress_of(s, tile, law, F, history, viscous, dt, scratch);                                          \
+#define TESSERA_STRESS_KERNEL(Law)                                                                            \
+  TESSERA_KERNEL StressSums stress_kernel(const System& s, const Tile& tile, const Law& law, const Tensor* F, \
+                                          const HistorySpan& history, ViscousMemory* viscous, double dt,      \
+                                          TileScratch& scratch) {                                             \
+    return stress_of(s, tile, law, F, history, viscous, dt, scratch);                                         \
   }
 TESSERA_STRESS_KERNEL(NeoHookean)
 TESSERA_STRESS_KERNEL(SaintVenantKirchhoff)
@@ -287,7 +280,7 @@ TESSERA_STRESS_KERNEL(J2Plasticity)
 
 }  // namespace
 
-StressSums stress_sweep(const System& s, Index k, const Columns* F, const HistorySpan& history, ViscousMemory* viscous,
+StressSums stress_sweep(const System& s, Index k, const Tensor* F, const HistorySpan& history, ViscousMemory* viscous,
                         double dt, TileScratch& scratch) {
   const Tile& tile = tile_of(s, k);
   const auto sweep = [&](const auto& law) { return stress_kernel(s, tile, law, F, history, viscous, dt, scratch); };
@@ -307,12 +300,12 @@ TESSERA_KERNEL void force_sweep(const System& s, Index k, const Columns* T, cons
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const std::uint16_t* count = s.tiles.incoming_count.data() + tile.node;
   const Tiles::Incoming* incoming = s.tiles.incoming.data() + tile.incoming;
-  const Vec3* B_tile = B + tile.bond;
+  const Vec3* B_tile = B + tile.slot;
   const auto received = [&](Index bonds) {
     Double4 sum_0{}, sum_1{}, sum_2{};
     for (const Tiles::Incoming* end = incoming + bonds; incoming != end; ++incoming) {
       const Columns& T_a = T[incoming->from];
-      const Vec3& B_ab = B_tile[incoming->bond];
+      const Vec3& B_ab = B_tile[incoming->slot];
       sum_0 += T_a.c0 * B_ab.x;
       sum_1 += T_a.c1 * B_ab.y;
       sum_2 += T_a.c2 * B_ab.z;

@@ -22,8 +22,8 @@ struct StressSums {
 
 /// Data of the viscous stress; only allocated when a material is viscous.
 struct ViscousMemory {
-  Field<Columns> F_previous;  // F_a one step ago
-  Field<Columns> P_previous;  // viscous stress one step ago [Pa]
+  Field<Tensor> F_previous;  // F_a one step ago
+  Field<Tensor> P_previous;  // viscous stress one step ago [Pa]
 };
 
 /// May the solid flow, or does it answer elastically about what has flowed before?
@@ -47,10 +47,9 @@ struct HistorySpan {
   }
 };
 
-/// What is known of one particle while a tile is worked on.
-struct TileNode {
-  Double4 x, X;  // position, reference position [m]
-  Columns minus_half_F;
+/// What is known of one particle while a tile is worked on: two cache lines that are read in pairs of numbers.
+struct alignas(64) TileNode {
+  double value[16];  // F/2 column by column, position and reference position [m], and one number that means nothing
 };
 
 /// Memory for one tile at a time, by local numbers.
@@ -64,16 +63,16 @@ struct TileScratch {
 };
 
 /// Sweep 1: F_a = (1/V_a) sum_b x_ab (x) B_ab, [D 32], [V 6], boundary nodes left out.
-void strain_sweep(const System& s, Index tile, const Double4* x, Columns* F, TileScratch& scratch);
+void strain_sweep(const System& s, Index tile, const Double4* x, Tensor* F, TileScratch& scratch);
 
 /// Sweep 2, first half. Copies the values of the tile and its rim; f_a = sum_b dU_ab/dx_ab, [D 57], and the contact
 /// stress T_a = Q_a = (1/2V_a) sum_b dU_ab/dy_ab (x) X_ab, [D 58], of the tile's own particles.
-double contact_sweep(const System& s, Index tile, const Double4* x, const Columns* F, Double4* f, TileScratch& scratch);
+double contact_sweep(const System& s, Index tile, const Double4* x, const Tensor* F, Double4* f, TileScratch& scratch);
 
 /// Sweep 2, second half: the elastic and viscous stress P(F_a) of the tile's own particles, added to T or, where the
 /// scratch has room for P, put there. `dt` is the time since the last evaluation (viscosity), zero at the first one;
 /// `viscous` is null without viscosity.
-StressSums stress_sweep(const System& s, Index tile, const Columns* F, const HistorySpan& history,
+StressSums stress_sweep(const System& s, Index tile, const Tensor* F, const HistorySpan& history,
                         ViscousMemory* viscous, double dt, TileScratch& scratch);
 
 /// Sweep 3: what the tile's own particles do by their stress T, f_b -= T_a B_ab and f_a -= T_a B_aa, [D 45], [V 41]:

@@ -23,10 +23,10 @@ std::vector<double> flat(const std::vector<Vec3>& v) {
   return values;
 }
 
-std::vector<double> flat(const Field<Columns>& tensors) {
+std::vector<double> flat(const Field<Tensor>& tensors) {
   std::vector<double> values;
   values.reserve(9 * tensors.size());
-  for (const Columns& t : tensors) {
+  for (const Tensor& t : tensors) {
     const Mat3 m = to_mat3(t);
     values.insert(values.end(), m.m.begin(), m.m.end());
   }
@@ -66,12 +66,12 @@ Field<PlasticState> histories(const std::vector<double>& values) {
   return h;
 }
 
-Field<Columns> tensors(const std::vector<double>& values) {
-  Field<Columns> t;
+Field<Tensor> tensors(const std::vector<double>& values) {
+  Field<Tensor> t;
   for (std::size_t i = 0; i + 8 < values.size(); i += 9) {
     Mat3 m;
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i), 9, m.m.begin());
-    t.push_back(to_kernel(m));
+    t.push_back(to_tensor(m));
   }
   return t;
 }

@@ -38,7 +38,7 @@ TEST(Lanes, ExponentialIsExactToOneUnitInTheLastPlace) {
   }
 }
 
-TEST(Lanes, TransposesAndAddsFourVectors) {
+TEST(Lanes, TransposesFourVectorsThereAndBack) {
   const Double4 a = four(1, 2, 3, 9), b = four(4, 5, 6, 9), c = four(7, 8, 9, 9), d = four(10, 11, 12, 9);
   const Lanes3 l = transposed(a, b, c, d);
   for (int k = 0; k < 4; ++k) {
@@ -46,12 +46,21 @@ TEST(Lanes, TransposesAndAddsFourVectors) {
     EXPECT_EQ(l.y[k], 2 + 3 * k);
     EXPECT_EQ(l.z[k], 3 + 3 * k);
   }
-  const Double4 s = sum(l);
-  EXPECT_EQ(s[0], 22);
-  EXPECT_EQ(s[1], 26);
-  EXPECT_EQ(s[2], 30);
-  EXPECT_EQ(s[3], 0);
+  const FourVectors back = transposed(l);
+  for (int k = 0; k < 4; ++k) {
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(back.v[k][i], 1 + i + 3 * k);
+    EXPECT_EQ(back.v[k][3], 0);
+  }
   EXPECT_EQ(sum(a), 15);
+}
+
+TEST(Lanes, LoadPairsFromFourRows) {
+  const double rows[4][3] = {{0, 1, 2}, {0, 3, 4}, {0, 5, 6}, {0, 7, 8}};
+  const TwoLanes pairs = load_pairs(rows[0] + 1, rows[1] + 1, rows[2] + 1, rows[3] + 1);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(pairs.first[k], 1 + 2 * k);
+    EXPECT_EQ(pairs.second[k], 2 + 2 * k);
+  }
 }
 
 }  // namespace

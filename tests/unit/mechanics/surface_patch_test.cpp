@@ -84,7 +84,7 @@ TEST_P(SurfacePatchTest, LinearMotionIsExactAndInEquilibrium) {
     move(state, s, linear);
     Forces forces(s);
     forces.evaluate(state, {walls, {}, {}}, 0.0);
-    for (const Columns& F : forces.deformation_gradient()) {
+    for (const Tensor& F : forces.deformation_gradient()) {
       const Mat3 error = to_mat3(F) - identity() - gradient;
       EXPECT_LT(std::sqrt(contract(error, error)), 1e-13) << body.name;
     }

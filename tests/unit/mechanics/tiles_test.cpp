@@ -15,25 +15,33 @@ TEST(Tiles, HoldEveryBondOnce) {
   const Tiles t = make_tiles(d, {{0, d.particles(), 0}}, 17);
   ASSERT_EQ(t.size(), (d.particles() + 16) / 17);
   ASSERT_EQ(t.bonds, d.bonds.size());
+  std::vector<int> seen(static_cast<std::size_t>(d.bonds.size()), 0);
   for (Index k = 0; k < t.size(); ++k) {
     const Tile& tile = t.tiles[static_cast<std::size_t>(k)];
     const auto global = [&](Index local) {
       return local < tile.size() ? tile.begin + local : t.rim[static_cast<std::size_t>(tile.rim + local - tile.size())];
     };
-    Offset bond = tile.bond, lane = tile.lane;
-    for (Index a = tile.begin; a < tile.end; ++a) {
-      ASSERT_EQ(t.count[static_cast<std::size_t>(a)], d.bonds.end(a) - d.bonds.begin(a));
-      for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i, ++bond, ++lane) {
-        const auto b = static_cast<std::size_t>(i);
-        EXPECT_EQ(global(t.neighbour[static_cast<std::size_t>(lane)]), d.bonds.neighbour[b]);
-        EXPECT_EQ(t.area_over_length[static_cast<std::size_t>(lane)], d.bonds.area_over_length[b]);
-        EXPECT_EQ(t.B[static_cast<std::size_t>(bond)], d.bonds.B_ab[b]);
+    const auto bonds_of = [&](Index a) { return d.bonds.end(a) - d.bonds.begin(a); };
+    Offset slots = 0;
+    for_each_slot(t, tile, bonds_of, [&](Offset slot, Index a, Index i) {
+      const auto place = static_cast<std::size_t>(slot);
+      const Index b = global(t.neighbour[place]);
+      ++slots;
+      if (i < 0) {  // padding: does nothing along a branch that does not vanish
+        EXPECT_EQ(t.area_over_length[place], 0.0);
+        EXPECT_EQ(t.B[place], Vec3{});
+        EXPECT_NE(b, a);
+        return;
       }
-      for (; (lane - tile.lane) % 4 != 0; ++lane) EXPECT_EQ(t.area_over_length[static_cast<std::size_t>(lane)], 0.0);
-    }
-    EXPECT_EQ(bond, t.end_of(k).bond);
-    EXPECT_EQ(lane, t.end_of(k).lane);
+      const auto bond = static_cast<std::size_t>(d.bonds.begin(a) + i);
+      EXPECT_EQ(b, d.bonds.neighbour[bond]);
+      EXPECT_EQ(t.area_over_length[place], d.bonds.area_over_length[bond]);
+      EXPECT_EQ(t.B[place], d.bonds.B_ab[bond]);
+      ++seen[bond];
+    });
+    EXPECT_EQ(tile.slot + slots, t.end_of(k).slot);
   }
+  EXPECT_EQ(seen, std::vector<int>(static_cast<std::size_t>(d.bonds.size()), 1));
 }
 
 /// A position in a rim is listed with the particle that is there.
