@@ -267,14 +267,48 @@ class Surfaces(CliTest):
         self.assertAlmostEqual(found["volume"], 1 / 6, delta=1e-15)
         self.assertIn("4 triangles, 4 vertices", found["notes"][0])
         self.assertIn("part.off: 4 triangles, 4 vertices, 1 shell", found["notes"][1])
-        self.assertEqual(len(found["notes"]), 3)
-        self.assertIn('side "surface": area 2.36603 m2', found["notes"][2])
+        [side] = found["sides"]
+        self.assertEqual((side["body"], side["names"], side["triangles"]), ("block", ["surface"], 4))
+        self.assertAlmostEqual(side["area"], 1.5 + 3 ** 0.5 / 2, delta=1e-14)
+        self.assertEqual((side["min"], side["max"]), ([0, 0, 0], [1, 1, 1]))
+        self.assertRegex(self.check().stdout, r"block: surface +2.36603 +\d+ +4  \(0, 0, 0\), \(1, 1, 1\)\n")
 
     def test_split_angle(self):
         self.write_case('{ file = "part.off", units = "m", split_angle = 30 }')
-        notes = json.loads(self.check("--json").stdout)["notes"]
-        self.assertEqual([note.split('"')[1] for note in notes[2:]], ["side1", "side2", "side3", "side4"])
-        self.assertIn("normal (0.577, 0.577, 0.577)", notes[2])
+        sides = json.loads(self.check("--json").stdout)["sides"]
+        self.assertEqual([side["names"] for side in sides], [["side1"], ["side2", "-x"], ["side3", "-y"], ["side4", "-z"]])
+        self.assertAlmostEqual(sides[0]["normal"][2], 3 ** -0.5, delta=1e-14)
+
+    def test_sides_of_boxes(self):
+        self.write_case('{ name = "brick", box = { min = [0, 0, 0], max = [1, 2, 3] } }')
+        sides = json.loads(self.check("--json").stdout)["sides"]
+        self.assertEqual({side["names"][0]: side["area"] for side in sides},
+                         {"-x": 6, "+x": 6, "-y": 3, "+y": 3, "-z": 2, "+z": 2})
+        self.assertEqual(sides[1]["names"], ["+x", "brick.+x"])
+        self.assertGreaterEqual(sides[1]["faces"], 36)
+
+    def test_bodies_of_any_shape_overlap(self):
+        self.write_case('{ torus = { radius = 2, tube_radius = 0.5, tolerance = 0.05 } }')
+        case = self.folder / "case.toml"
+        pin = '[[body]]\nname = "pin"\nshape = { sphere = { radius = 1.2, tolerance = 0.05 } }\n' \
+              'particles = { spacing = 0.4 }\nmaterial = "rubber"\n[[material]]'
+        case.write_text(case.read_text().split("[[boundary]]")[0].replace("[[material]]", pin) + "[time]\nend = 1\n")
+        self.assertEqual(self.check().returncode, DONE, self.check().stderr)
+        process = subprocess.run([PROGRAM, "check", "case.toml", "--set", "body.1.shape.sphere.radius=1.6"],
+                                 cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(process.returncode, INPUT)
+        self.assertIn('"pin" overlaps', process.stderr)
+
+    def test_pictures_of_cells(self):
+        self.write_case('{ file = "part.off", units = "m" }')
+        case = self.folder / "case.toml"
+        text = case.read_text()
+        case.write_text(text + "\n" if "[output]" not in text else text)
+        process = subprocess.run([PROGRAM, "run", "case.toml", "-o", "out", "--set", "time.end=0", "--set",
+                                  "output.fields.cells=true", "--set", "output.fields.every=1"], cwd=self.folder,
+                                 capture_output=True, text=True)
+        self.assertEqual(process.returncode, DONE, process.stderr)
+        self.assertTrue((self.folder / "out" / "cells_000000.vtu").exists())
 
     def test_units(self):
         self.write_case('{ file = "part.off", units = "cm" }')

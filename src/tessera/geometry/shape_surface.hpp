@@ -31,7 +31,7 @@ struct ShapeSurface {
 ShapeSurface shape_surface(const Shape& shape);
 
 /// How far facets of a curved shape may be from its true surface when the user says nothing: this part of its largest
-/// radius. A circle gets 71 chords.
+/// radius. A circle gets 72 chords.
 inline constexpr double kDefaultTolerance = 1e-3;
 
 }  // namespace tessera

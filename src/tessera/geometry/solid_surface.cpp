@@ -54,7 +54,29 @@ std::vector<Vec3> face_of(const ConvexPiece& piece, std::size_t wall) {
   return face;
 }
 
+void add_face(const std::vector<Vec3>& face, SideSummary& side) {
+  for (const Vec3& X : face) side.box.include(X);
+  for (std::size_t i = 2; i < face.size(); ++i) {
+    const double area = 0.5 * norm(cross(face[i - 1] - face[0], face[i] - face[0]));
+    ++side.triangles;
+    side.area += area;
+    side.center += (area / 3.0) * (face[0] + face[i - 1] + face[i]);
+  }
+}
+
 }  // namespace
+
+std::vector<SideSummary> summarize_sides(const Solid& solid) {
+  std::vector<SideSummary> sides;
+  for (const Side& side : solid.sides) sides.push_back({side.names[0], 0, 0.0, side.plane.normal, {}, {}});
+  for (const ConvexPiece& piece : solid.pieces)
+    for (std::size_t w = 0; w < piece.walls.size(); ++w)
+      if (const Index side = piece.walls[w].side; side >= 0)
+        add_face(face_of(piece, w), sides[static_cast<std::size_t>(side)]);
+  for (SideSummary& side : sides)
+    if (side.area > 0.0) side.center = side.center / side.area;
+  return sides;
+}
 
 TriangleSurface surface_of(const Solid& solid) {
   FileSurfaceBuilder builder("the shape", PlaceUnit::line);

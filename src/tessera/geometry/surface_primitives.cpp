@@ -30,9 +30,11 @@ void refuse_too_many(double triangles, double tolerance) {
 }
 
 /// The fewest chords of a circle, at least `least`, that stay within `tolerance` of it: r (1 - cos(pi / n)) is enough.
+/// Above four a multiple of four, so that the circle reaches its extremes along both axes.
 double chords(double radius, double tolerance, double least) {
   if (tolerance >= radius) return least;
-  return std::max(least, std::ceil(std::numbers::pi / std::acos(1 - tolerance / radius)));
+  const double n = std::max(least, std::ceil(std::numbers::pi / std::acos(1 - tolerance / radius)));
+  return n > 4 ? 4 * std::ceil(n / 4) : n;
 }
 
 Vec3 on_circle(double radius, Index i, Index n, double z) {

@@ -114,6 +114,7 @@ std::vector<SideSummary> summarize_sides(const TriangleSurface& surface) {
     const auto [a, b, c] = surface.corners(t);
     const Vec3 A = area_vector(surface, t);
     ++side.triangles;
+    side.box.include(bounds(surface, t));
     side.area += norm(A);
     side.normal += A;
     side.center += norm(A) * ((a + b + c) / 3.0);

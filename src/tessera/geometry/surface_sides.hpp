@@ -33,6 +33,7 @@ struct SideSummary {
   double area = 0.0;  // [m2]
   Vec3 normal;        // of length one and the direction of the area vectors' sum; zero when that vanishes (a sphere)
   Vec3 center;        // of area [m]
+  Bounds box;         // around it [m]
 };
 
 /// One line per side, in their order.

@@ -10,6 +10,7 @@
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
 #include "tessera/geometry/shape_surface.hpp"
+#include "tessera/geometry/solid_surface.hpp"
 #include "tessera/geometry/surface_sides.hpp"
 #include "tessera/loads/condition_values.hpp"
 #include "tessera/simulation/relaxed_points.hpp"
@@ -100,6 +101,16 @@ Surface delaunay_surface(const BodySpec& body, const TetrahedralMesh& mesh) {
   return s;
 }
 
+TriangleSurface outline_of(const TetrahedralMesh& mesh) {
+  TriangleSurface surface{mesh.points, {}, {}, {}};
+  for (const auto& names : mesh.side_names) surface.side_names.push_back(names[0]);
+  for (const BoundaryTriangle& t : mesh.boundary) {
+    surface.triangles.push_back({t.vertices[0], t.vertices[1], t.vertices[2]});
+    surface.side.push_back(t.side);
+  }
+  return surface;
+}
+
 Discretization discretize(const MethodSpec& method, std::span<const Vec3> X, const Cells& cells,
                           const std::vector<Mat3>& D) {
   switch (method.boundary) {
@@ -156,6 +167,11 @@ void discretize_cells(const Case& c, const BodyCells& made, const std::vector<Bo
   refuse_loads_on_held_components(b, c.time.end);
 }
 
+std::vector<Polyhedron> in_users_numbers(std::vector<Polyhedron> cells, const std::vector<Index>& user_number) {
+  for (Polyhedron& cell : cells) cell.particle = user_number[static_cast<std::size_t>(cell.particle)];
+  return cells;
+}
+
 BuiltBody build_voronoi(const Case& c, const BodySpec& body, const Solid& solid,
                         const std::vector<BoundaryCondition>& conditions) {
   BuiltBody b;
@@ -165,12 +181,9 @@ BuiltBody build_voronoi(const Case& c, const BodySpec& body, const Solid& solid,
   BodyCells made{permuted(given.points, b.user_number), {}, solid.volume};
   made.cells = voronoi_cells(made.X, solid);
   b.surface = voronoi_surface(body, solid, made.cells);
+  b.sides = side_rows(b.surface, summarize_sides(solid));
   discretize_cells(c, made, conditions, b);
-  if (c.output.fields.cells) {
-    std::vector<Polyhedron> polyhedra = voronoi_polyhedra(made.X, solid);
-    for (Polyhedron& p : polyhedra) p.particle = b.user_number[static_cast<std::size_t>(p.particle)];
-    b.cells = std::move(polyhedra);
-  }
+  if (c.output.fields.cells) b.cells = in_users_numbers(voronoi_polyhedra(made.X, solid), b.user_number);
   return b;
 }
 
@@ -184,8 +197,6 @@ void check_surface_case(const Case& c, const Shape& shape) {
   if (c.method.boundary != BoundaryTreatment::consistent)
     refuse("needs method.boundary = \"consistent\": the others want cells whose faces all bisect");
   if (c.method.dimension != 3) refuse("needs method.dimension = 3");
-  if (c.output.fields.cells)
-    refuse("has cells that cannot be written as polyhedra, for they may be hollow; set output.fields.cells = false");
 }
 
 Surface surface_of_triangles(const BodySpec& body, const ShapeSurface& shape, const Cells& cells) {
@@ -202,31 +213,29 @@ Surface surface_of_triangles(const BodySpec& body, const ShapeSurface& shape, co
 
 BuiltBody build_in_surface(const Case& c, const BodySpec& body, const std::vector<BoundaryCondition>& conditions) {
   check_surface_case(c, *body.shape);
-  const ShapeSurface shape = shape_surface(*body.shape);
+  ShapeSurface shape = shape_surface(*body.shape);
   const SurfaceIndex index(shape.surface);
   BuiltBody b;
   PointSet given = place_particles(body.particles, index);
   relax_points(body, index, given.points, b.notes);
   b.user_number = hilbert_order(given.points);
   BodyCells made{permuted(given.points, b.user_number), {}, volume(shape.surface)};
-  SurfaceCells found = surface_cells(made.X, index);
+  SurfaceCells found =
+      surface_cells(made.X, index, Moments::first, c.output.fields.cells ? Pictures::wanted : Pictures::omitted);
   made.cells = std::move(found.cells);
   b.notes.push_back(fmt::format("surface of body \"{}\": {} triangles, {} vertices", body.name, shape.surface.size(),
                                 shape.surface.vertices.size()));
   b.notes.insert(b.notes.end(), shape.notes.begin(), shape.notes.end());
-  for (const SideSummary& side : summarize_sides(shape.surface))
-    b.notes.push_back(
-        fmt::format("  side \"{}\": area {:.6g} m2, normal ({:.3g}, {:.3g}, {:.3g}), centre ({:.6g}, "
-                    "{:.6g}, {:.6g}) m",
-                    side.name, side.area, side.normal.x, side.normal.y, side.normal.z, side.center.x, side.center.y,
-                    side.center.z));
   if (found.adopted > 0)
     b.notes.push_back(
         fmt::format("  {} parts of cells, {:.3g} m3, are cut off from their particles and went to "
                     "neighbouring cells",
                     found.adopted, found.adopted_volume));
   b.surface = surface_of_triangles(body, shape, made.cells);
+  b.sides = side_rows(b.surface, summarize_sides(shape.surface));
+  if (c.output.fields.cells) b.cells = in_users_numbers(std::move(found.polyhedra), b.user_number);
   discretize_cells(c, made, conditions, b);
+  b.outline = std::move(shape.surface);
   return b;
 }
 
@@ -262,6 +271,8 @@ BuiltBody build_delaunay(const Case& c, const BodySpec& body, const std::optiona
   if (c.output.fields.cells) b.cells = mesh.tetrahedra;
   b.user_number = reorder(mesh);
   b.surface = delaunay_surface(body, mesh);
+  b.outline = outline_of(mesh);
+  b.sides = side_rows(b.surface, summarize_sides(*b.outline));
   b.pieces.resize(b.surface.pieces.size());
   b.sites_per_piece = 3;
 

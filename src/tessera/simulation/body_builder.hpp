@@ -10,6 +10,7 @@
 #include "tessera/loads/surface.hpp"
 #include "tessera/output/fields.hpp"
 #include "tessera/simulation/case.hpp"
+#include "tessera/simulation/side_table.hpp"
 
 namespace tessera {
 
@@ -24,6 +25,8 @@ struct BuiltBody {
   Index sites_per_piece = 1;            // load sites: a Voronoi face is one, a triangle three (its vertices)
   Identities identities;
   std::optional<Solid> solid;
+  std::optional<TriangleSurface> outline;  // of bodies that are no `solid`
+  std::vector<SideRow> sides;
   std::optional<CellGeometry> cells;
   std::vector<std::string> notes;  // lines for the user about what was built
 };

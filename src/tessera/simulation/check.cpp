@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -38,6 +39,7 @@ struct Findings {
   double steps = 0.0;
   std::int64_t memory = 0;
   Identities identities;
+  std::vector<SideRow> sides;
   std::vector<std::string> notes;
 };
 
@@ -54,6 +56,7 @@ Findings examine(const Case& c) {
   f.volume = d.body_volume;
   f.shortest = model.system.shortest_length;
   f.identities = model.identities;
+  f.sides = model.sides;
   f.notes = model.notes;
   // The control of a copy that is never refused: check also tells the limit to those whose fixed step is too long.
   TimeSpec spec = c.time;
@@ -83,8 +86,21 @@ std::string to_text(const Findings& f) {
       "violation)\n",
       f.setup_seconds, duration_text(f.run_seconds), static_cast<double>(f.memory) / 1e6);
   for (const auto& [name, value] : f.identities) text += fmt::format("  {:<14} {:.1e}\n", name, value);
+  text += to_text(f.sides);
   for (const std::string& note : f.notes) text += note + "\n";
   return text;
+}
+
+nlohmann::ordered_json to_json(const SideRow& row) {
+  const auto list = [](const Vec3& X) { return std::array{X.x, X.y, X.z}; };
+  return {{"body", row.body},
+          {"names", row.names},
+          {"area", row.side.area},
+          {"faces", row.faces},
+          {"triangles", row.side.triangles},
+          {"normal", list(row.side.normal)},
+          {"min", list(row.side.box.lower)},
+          {"max", list(row.side.box.upper)}};
 }
 
 std::string to_json(const Findings& f) {
@@ -102,6 +118,8 @@ std::string to_json(const Findings& f) {
   j["estimated_run_seconds"] = f.run_seconds;
   j["peak_memory_bytes"] = f.memory;
   j["identities"] = f.identities;
+  j["sides"] = nlohmann::ordered_json::array();
+  for (const SideRow& row : f.sides) j["sides"].push_back(to_json(row));
   j["notes"] = f.notes;
   return j.dump(2) + "\n";
 }

@@ -117,6 +117,7 @@ Model build_model(const Case& c) {
     collect_motion(parts, b, initial);
     collect_tractions(parts, b, static_cast<Index>(all.sites.size()));
     model.identities = worst_of(model.identities, b.identities);
+    model.sides.insert(model.sides.end(), b.sides.begin(), b.sides.end());
     model.notes.insert(model.notes.end(), b.notes.begin(), b.notes.end());
     model.boundary_faces += static_cast<Index>(b.surface.pieces.size());
     append_cells(model.cells, std::move(b.cells), shift);

@@ -10,6 +10,7 @@
 #include "tessera/mechanics/system.hpp"
 #include "tessera/output/fields.hpp"
 #include "tessera/simulation/case.hpp"
+#include "tessera/simulation/side_table.hpp"
 
 namespace tessera {
 
@@ -34,6 +35,7 @@ struct Model {
   std::vector<Vec3> initial_displacement, initial_velocity;  // [m], [m/s]
   Identities identities;
   Index boundary_faces = 0;
+  std::vector<SideRow> sides;         // of all bodies
   std::vector<std::string> notes;     // lines for the user about what was built
   std::optional<CellGeometry> cells;  // for pictures, when the case asks for them; particles by user number
 

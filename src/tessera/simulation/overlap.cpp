@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tessera/geometry/solid_surface.hpp"
+#include "tessera/geometry/surface_overlap.hpp"
 #include "tessera/tessellation/clip.hpp"
 
 namespace tessera {
@@ -39,14 +41,24 @@ bool pieces_meet(const ConvexPiece& a, const ConvexPiece& b, double slack) {
   return !common.is_empty();
 }
 
+bool pieces_meet(const Solid& a, const Solid& b, double slack) {
+  for (const ConvexPiece& p : a.pieces)
+    for (const ConvexPiece& q : b.pieces)
+      if (pieces_meet(p, q, slack)) return true;
+  return false;
+}
+
+bool surfaces_meet(const BuiltBody& a, const BuiltBody& b, double slack) {
+  const TriangleSurface of_a = a.solid ? surface_of(*a.solid) : *a.outline,
+                        of_b = b.solid ? surface_of(*b.solid) : *b.outline;
+  const SurfaceIndex index_a(of_a), index_b(of_b);
+  return find_overlap({index_a, a.d.X}, {index_b, b.d.X}, slack).has_value();
+}
+
 bool bodies_meet(const BuiltBody& a, const BuiltBody& b) {
   const double slack = 1e-9 * norm(a.surface.upper - a.surface.lower);
   if (!boxes_meet(a.surface.lower, a.surface.upper, b.surface.lower, b.surface.upper, slack)) return false;
-  if (!a.solid || !b.solid) return true;
-  for (const ConvexPiece& p : a.solid->pieces)
-    for (const ConvexPiece& q : b.solid->pieces)
-      if (pieces_meet(p, q, slack)) return true;
-  return false;
+  return a.solid && b.solid ? pieces_meet(*a.solid, *b.solid, slack) : surfaces_meet(a, b, slack);
 }
 
 }  // namespace

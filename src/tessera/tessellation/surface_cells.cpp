@@ -12,6 +12,7 @@
 #include "tessera/parallel/collect.hpp"
 #include "tessera/parallel/workspaces.hpp"
 #include "tessera/tessellation/surface_fence.hpp"
+#include "tessera/tessellation/surface_outline.hpp"
 #include "tessera/tessellation/surface_parts.hpp"
 
 namespace tessera {
@@ -57,10 +58,11 @@ Symmetric3 moved(const Symmetric3& second, const Vec3& moment, double size, cons
 
 class SurfaceAssembly {
  public:
-  SurfaceAssembly(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments)
+  SurfaceAssembly(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments, Pictures pictures)
       : points_(points),
         index_(index),
         moments_(moments),
+        pictures_(pictures),
         planes_(find_planes(index.surface())),
         solid_volume_(volume(index.surface())) {}
 
@@ -74,6 +76,7 @@ class SurfaceAssembly {
         throw GeometryError("the cells miss a part of the solid: has it parts without a particle?");
     }
     adopt();
+    list_polyhedra();
     list_faces();
     close_cells();
     return std::move(result_);
@@ -111,6 +114,7 @@ class SurfaceAssembly {
     kept_second_.assign(with_faces() ? points_.size() : 0, {});
     split_.clear();
     split_.resize(points_.size());
+    outlines_.assign(pictures_ == Pictures::wanted ? points_.size() : 0, {});
     std::vector<char> meets_fence(points_.size(), 0);
     faces_ = parallel::collect_rows<KeptFace>(static_cast<Index>(points_.size()),
                                               [&](Index a, parallel::RowCollector<KeptFace>& out) {
@@ -118,6 +122,8 @@ class SurfaceAssembly {
                                                 const CutCell& cell = own->surface.cut(own->cells.cut(a));
                                                 const auto i = static_cast<std::size_t>(a);
                                                 meets_fence[i] = add_cell(a, cell, out) ? 0 : 1;
+                                                if (!outlines_.empty())
+                                                  outlines_[i] = outlines_of(own->surface, a, point(a));
                                               });
     if (std::find(meets_fence.begin(), meets_fence.end(), 1) != meets_fence.end()) return false;
     double total = 0.0;
@@ -183,6 +189,15 @@ class SurfaceAssembly {
       result_.cells.centroid.push_back(points_[a] + moment_[a] / volume[a]);
     for (std::size_t a = 0; a < second_.size(); ++a)
       result_.cells.second_moment.push_back(second_[a] - (1.0 / volume[a]) * square(moment_[a]));
+  }
+
+  void list_polyhedra() {
+    for (std::size_t a = 0; a < outlines_.size(); ++a)
+      for (std::size_t p = 0; p < outlines_[a].size(); ++p) {
+        if (split_[a]) outlines_[a][p].particle = owners_->owner(static_cast<Index>(a), static_cast<Index>(p));
+        result_.polyhedra.push_back(std::move(outlines_[a][p]));
+      }
+    outlines_ = {};
   }
 
   void list(Index cell, const StoredFace& face, Index a, Index b) {
@@ -298,6 +313,7 @@ class SurfaceAssembly {
   std::span<const Vec3> points_;
   const SurfaceIndex& index_;
   Moments moments_;
+  Pictures pictures_;
   SurfacePlanes planes_;
   double solid_volume_;
   Csr<KeptFace> faces_;                               // of cells in one part
@@ -305,6 +321,7 @@ class SurfaceAssembly {
   std::vector<std::unique_ptr<CutCell>> split_;       // cells in several parts
   std::vector<Vec3> moment_;                          // volume times centroid relative to the particle
   std::vector<Symmetric3> second_;                    // moments about the particle, if wanted
+  std::vector<std::vector<Polyhedron>> outlines_;     // per cell, per part, if wanted
   std::unique_ptr<SplitCells> owners_;
   std::vector<ListedFace> listed_;
   SurfaceCells result_;
@@ -312,9 +329,10 @@ class SurfaceAssembly {
 
 }  // namespace
 
-SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments) {
+SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments,
+                           Pictures pictures) {
   if (points.empty()) throw GeometryError("there are no particles to make Voronoi cells of");
-  return SurfaceAssembly(points, index, moments).assemble();
+  return SurfaceAssembly(points, index, moments, pictures).assemble();
 }
 
 }  // namespace tessera

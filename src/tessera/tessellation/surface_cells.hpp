@@ -12,7 +12,11 @@ struct SurfaceCells {
   Cells cells;
   Index adopted = 0;            // parts that the surface cuts off from their particle; a neighbour's cell has them now
   double adopted_volume = 0.0;  // [m3]
+  std::vector<Polyhedron> polyhedra;  // for pictures, if wanted: the parts that a particle's cell is made of
 };
+
+/// Are the outlines of cells kept for pictures? They need not be convex, and may be hollow.
+enum class Pictures { omitted, wanted };
 
 /// The Voronoi cells of `points` in the solid that a closed surface bounds, cut exactly, whatever its shape; a cell has
 /// the index of its point. A boundary face is flat: cells have one for every plane of a side that they reach.
@@ -22,6 +26,7 @@ struct SurfaceCells {
 ///
 /// Throws GeometryError that names the particle when one is not inside, two coincide, or a part of more than half its
 /// cell is cut off; and when a part of the solid holds no particle at all.
-SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments = Moments::first);
+SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments = Moments::first,
+                           Pictures pictures = Pictures::omitted);
 
 }  // namespace tessera

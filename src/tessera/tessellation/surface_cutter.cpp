@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -88,6 +90,20 @@ void SurfaceCutter::for_each_piece(Visit&& visit) const {
     visit(std::span<const Member>(first, last));
     first = last;
   }
+}
+
+std::vector<SurfaceCutter::Outline> SurfaceCutter::outlines() const {
+  std::map<std::pair<Index, Index>, Outline> found;  // by carrier and part: a hole may belong to another shell
+  for (const Member& line : members_) {
+    const Index part = shells_[static_cast<std::size_t>(line.shell)].part;
+    Outline& outline = found[{line.carrier, part}];
+    outline.part = part;
+    outline.normal = normal_of(line.carrier);
+    outline.lines.push_back({line.from, line.to});
+  }
+  std::vector<Outline> all;
+  for (auto& [key, outline] : found) all.push_back(std::move(outline));
+  return all;
 }
 
 void SurfaceCutter::find_shells() {

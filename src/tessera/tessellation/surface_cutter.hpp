@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,18 @@ class SurfaceCutter {
 
   /// Valid until the next call. Throws GeometryError when the surface is not closed there.
   const CutCell& cut(const DualCell& cell);
+
+  /// Lines around a flat piece of what bounds a part of the cell, counter-clockwise seen from outside; each leads from
+  /// one of points() to another.
+  struct Outline {
+    Index part = 0;
+    Vec3 normal;  // out of the part
+    std::vector<std::array<Index, 2>> lines;
+  };
+  /// All pieces of the cell that was cut last.
+  std::vector<Outline> outlines() const;
+  const std::vector<SurfaceLines::Point>& points() const { return lines_.points(); }
+  std::size_t parts() const { return result_.parts.size(); }
 
  private:
   /// A line and what it belongs to.
