@@ -209,6 +209,18 @@ class Part(unittest.TestCase):
         self.assertLess(r.summary["identities"]["volume"], 1e-12)
 
 
+class Booleans(unittest.TestCase):
+    def test_numbers_of_the_readme(self):
+        r = runs.run("odd-solid/odd-solid.toml")
+        last = {name: column[-1] for name, column in r.history.items()}
+        self.assertEqual(r.summary["particles"], 758)
+        self.assertEqual(r.summary["boundary_faces"], 9559)
+        self.assertAlmostEqual(last["hole.fy"], 21.461, delta=2e-3)
+        self.assertLess(max(abs(last["hole.fx"]), abs(last["hole.fz"])), 1e-3)
+        self.assertAlmostEqual(last["ball.y"], 5.242e-3, delta=1e-6)
+        self.assertLess(r.summary["identities"]["volume"], 1e-12)
+
+
 def tearDownModule():
     rows = []
     for body in BODIES:

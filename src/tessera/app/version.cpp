@@ -12,7 +12,7 @@ std::string version_text() {
       "tessera {}\n"
       "compiler:   {}\n"
       "build type: {}\n"
-      "options:    CGAL (Delaunay tetrahedra) {}\n"
+      "options:    CGAL (Delaunay tetrahedra, booleans of shapes) {}\n"
       "\n"
       "Please cite the paper of the formulation that you use:\n"
       "  delaunay: G. Frenning, Towards a macroscopically consistent discrete method for granular materials:\n"
