@@ -131,16 +131,65 @@ class ConsistentReference {
   }
 };
 
+/// V_a P_a, the derivatives of the strain energy with respect to the F_a.
+inline std::vector<Mat3> nodal_energy_slopes(const ConsistentReference& r, const Material& m,
+                                             const std::vector<Mat3>& F) {
+  std::vector<Mat3> slopes;
+  for (std::size_t a = 0; a < F.size(); ++a) slopes.push_back(r.cells.volume[a] * reference_stress(m, F[a]));
+  return slopes;
+}
+
+/// The same with six points in each cell. F at a point is sum_b weight_b F_b: 1 for the cell itself, plus p . g_b for
+/// the least squares' vectors g_b, which take the cell's own share with the opposite sign.
+inline std::vector<Mat3> cell_energy_slopes(const ConsistentReference& r, const Material& m,
+                                            const std::vector<Mat3>& F) {
+  std::vector<Mat3> slopes(F.size());
+  for (std::size_t a = 0; a < F.size(); ++a) {
+    const std::vector<std::size_t> near(r.near[a].begin(), r.near[a].end());
+    // Rows (C_b - C_a) / r of the least squares' system for the slope; its right side is (F_b - F_a) / r.
+    Eigen::MatrixXd rows(near.size(), 3);
+    std::vector<double> length;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const Vec3 c = r.cells.centroid[near[i]] - r.cells.centroid[a];
+      length.push_back(norm(c));
+      rows.row(static_cast<Eigen::Index>(i)) << c.x / norm(c), c.y / norm(c), c.z / norm(c);
+    }
+    const Eigen::MatrixXd inverse = rows.completeOrthogonalDecomposition().pseudoInverse();
+    const Mat3 p = cubature_points((1.0 / r.cells.volume[a]) * r.cells.second_moment[a]);
+    for (int q = 0; q < 3; ++q)
+      for (const double sign : {-1.0, 1.0}) {
+        std::vector<double> weight;
+        Mat3 at_point = F[a];
+        for (std::size_t i = 0; i < near.size(); ++i) {
+          double w = 0.0;
+          for (int k = 0; k < 3; ++k) w += sign * p(k, q) * inverse(k, static_cast<Eigen::Index>(i)) / length[i];
+          weight.push_back(w);
+          at_point += w * (F[near[i]] - F[a]);
+        }
+        const Mat3 P = (r.cells.volume[a] / 6.0) * reference_stress(m, at_point);
+        slopes[a] += P;
+        for (std::size_t i = 0; i < near.size(); ++i) {
+          slopes[near[i]] += weight[i] * P;
+          slopes[a] -= weight[i] * P;
+        }
+      }
+  }
+  return slopes;
+}
+
 /// Forces on the particles and on the walls of the boundary faces.
 struct ConsistentReferenceForces {
   std::vector<Mat3> F;
   std::vector<Vec3> particles, walls;
 
   ConsistentReferenceForces(const ConsistentReference& r, const VoronoiBody& body, const Material& m,
-                            const std::vector<Vec3>& x, const std::vector<Vec3>& wall_positions)
+                            const std::vector<Vec3>& x, const std::vector<Vec3>& wall_positions,
+                            Integration integration = Integration::nodal)
       : particles(x.size()), walls(wall_positions.size()) {
     for (std::size_t a = 0; a < x.size(); ++a) F.push_back(r.deformation_gradient(a, x, wall_positions));
-    for (std::size_t a = 0; a < x.size(); ++a) hand_on_strain(r, a, r.cells.volume[a] * reference_stress(m, F[a]));
+    const std::vector<Mat3> energy_slopes =
+        integration == Integration::cell ? cell_energy_slopes(r, m, F) : nodal_energy_slopes(r, m, F);
+    for (std::size_t a = 0; a < x.size(); ++a) hand_on_strain(r, a, energy_slopes[a]);
     for (const InteriorFace& f : r.cells.interior) add_bond(r, m, x, f);
     for (std::size_t i = 0; i < body.D.size(); ++i)
       add_boundary_bond(r, m, x, wall_positions, r.cells.boundary[i], body.D[i], r.cells.interior.size() + i);

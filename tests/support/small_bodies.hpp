@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tessera/discretization/cell_measure.hpp"
 #include "tessera/discretization/delaunay.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
@@ -18,6 +19,9 @@
 namespace tessera::test {
 
 enum class Method { delaunay, consistent, variational, quasi_static };
+
+/// Where the energy of a cell is taken.
+enum class Integration { nodal, cell };
 
 inline std::string name_of(Method m) {
   switch (m) {
@@ -32,6 +36,16 @@ inline std::string name_of(Method m) {
   }
   return "";
 }
+
+inline std::string name_of(Integration i) { return i == Integration::cell ? "cell" : "nodal"; }
+
+/// What tests go through.
+struct Kind {
+  Method method;
+  Integration integration = Integration::nodal;
+};
+
+inline std::string name_of(const Kind& k) { return name_of(k.method) + "_" + name_of(k.integration); }
 
 inline Solid box(const Vec3& upper) {
   Shape shape;
@@ -75,28 +89,41 @@ inline VoronoiBody voronoi_body(const Solid& solid, std::array<int, 3> counts, d
                                 const Constrain& constrain) {
   VoronoiBody body;
   body.X = lattice(solid, counts, jitter, seed, Placement::cell_centres).points;
-  body.cells = voronoi_cells(body.X, solid);
+  body.cells = voronoi_cells(body.X, solid, Moments::second_of_cells);
   for (const BoundaryFace& f : body.cells.boundary) body.D.push_back(constrain(f.centroid, normalized(f.area)));
   return body;
 }
 
-inline Discretization discretize(Method method, const VoronoiBody& body) {
-  if (method == Method::consistent) return discretize_consistent(body.X, body.cells, body.D);
-  return discretize_ghosts(body.X, body.cells, body.D,
-                           method == Method::variational ? GhostForce::variational : GhostForce::quasi_static);
+inline Discretization discretize(Method method, const VoronoiBody& body, Integration integration = Integration::nodal) {
+  Discretization d =
+      method == Method::consistent
+          ? discretize_consistent(body.X, body.cells, body.D)
+          : discretize_ghosts(body.X, body.cells, body.D,
+                              method == Method::variational ? GhostForce::variational : GhostForce::quasi_static);
+  if (integration == Integration::cell) d.measure = measure_of_cells(body.cells);
+  return d;
 }
 
 /// A box or L-block discretized; for delaunay `constrain` acts on particles, with the normal zero.
 inline Discretization discretize(Method method, const Solid& solid, std::array<int, 3> counts, double jitter,
-                                 std::uint64_t seed, const Constrain& constrain) {
-  if (method != Method::delaunay) return discretize(method, voronoi_body(solid, counts, jitter, seed, constrain));
+                                 std::uint64_t seed, const Constrain& constrain,
+                                 Integration integration = Integration::nodal) {
+  if (method != Method::delaunay)
+    return discretize(method, voronoi_body(solid, counts, jitter, seed, constrain), integration);
   const TetrahedralMesh mesh = tetrahedra(solid, counts, jitter, seed);
   std::vector<ParticleConstraint> constraints;
   for (Index a = 0; a < static_cast<Index>(mesh.points.size()); ++a) {
     const Mat3 D = constrain(mesh.points[static_cast<std::size_t>(a)], Vec3{});
     if (!is_zero(D)) constraints.push_back({a, D});
   }
-  return discretize_delaunay(mesh, constraints);
+  Discretization d = discretize_delaunay(mesh, constraints);
+  if (integration == Integration::cell) d.measure = measure_of_dual_cells(mesh);
+  return d;
+}
+
+inline Discretization discretize(const Kind& kind, const Solid& solid, std::array<int, 3> counts, double jitter,
+                                 std::uint64_t seed, const Constrain& constrain) {
+  return discretize(kind.method, solid, counts, jitter, seed, constrain, kind.integration);
 }
 
 inline Mat3 nothing(const Vec3&, const Vec3&) { return {}; }

@@ -40,8 +40,9 @@ struct NewCommand {
 
 /// tessera bench
 struct BenchCommand {
-  int particles = 0;        // 0: all sizes
-  int threads = 0;          // 0: one to all
+  int particles = 0;  // 0: all sizes
+  int threads = 0;    // 0: one to all
+  std::string integration = "nodal";
   std::string formulation;  // empty: voronoi for the speed, both for the accuracy
   bool accuracy = false;    // only that
   bool json = false;

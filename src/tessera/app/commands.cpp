@@ -90,6 +90,7 @@ void execute(const BenchCommand& command) {
   if (command.threads > 0) options.threads = command.threads;
   if (!command.formulation.empty())
     options.formulation = command.formulation == "delaunay" ? Formulation::delaunay : Formulation::voronoi;
+  if (command.integration == "cell") options.integration = Integration::cell;
   if (command.accuracy) {
     options.parts = BenchParts::accuracy;
   } else if (options.particles || options.threads) {

@@ -11,8 +11,8 @@ namespace tessera {
 
 namespace {
 
-AccuracyRow measure(Formulation formulation, int per_metre) {
-  const CantileverPath path = run_cantilever(formulation, per_metre);
+AccuracyRow measure(Formulation formulation, Integration integration, int per_metre) {
+  const CantileverPath path = run_cantilever(formulation, per_metre, integration);
   return {per_metre, path.particles, path.steps, path.seconds, path_error(path, formulation, per_metre)};
 }
 
@@ -37,14 +37,15 @@ std::optional<TimeToError> time_to_error(std::span<const AccuracyRow> rows, doub
   return on_line(rows[first], rows[first + 1], error);
 }
 
-AccuracyForTime measure_accuracy(Formulation formulation) {
+AccuracyForTime measure_accuracy(Formulation formulation, Integration integration) {
   AccuracyForTime result;
   result.formulation = formulation == Formulation::delaunay ? "delaunay" : "voronoi";
+  result.integration = integration == Integration::cell ? "cell" : "nodal";
   result.threads = parallel::threads();
   for (const int per_metre : {4, 8, 16}) {
     if (per_metre == 16 && result.rows.back().error <= wanted_error) break;
-    fmt::print(stderr, "bench: cantilever, {}, {} per metre\n", result.formulation, per_metre);
-    result.rows.push_back(measure(formulation, per_metre));
+    fmt::print(stderr, "bench: cantilever, {}, {}, {} per metre\n", result.formulation, result.integration, per_metre);
+    result.rows.push_back(measure(formulation, integration, per_metre));
   }
   result.to_wanted_error = time_to_error(result.rows, wanted_error);
   return result;

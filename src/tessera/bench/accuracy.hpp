@@ -32,9 +32,9 @@ struct TimeToError {
 /// two (all smaller). Nothing where those errors do not fall. Rows go from coarse to fine.
 std::optional<TimeToError> time_to_error(std::span<const AccuracyRow> rows, double error);
 
-/// What accuracy costs with one formulation.
+/// What accuracy costs with one formulation and integration.
 struct AccuracyForTime {
-  std::string formulation;
+  std::string formulation, integration;
   int threads = 1;
   std::vector<AccuracyRow> rows;
   std::optional<TimeToError> to_wanted_error;
@@ -42,6 +42,6 @@ struct AccuracyForTime {
 
 /// Runs the cantilever with 4 and 8 particles per metre, and with 16 if the error is not yet the wanted one. Says on
 /// stderr what runs.
-AccuracyForTime measure_accuracy(Formulation formulation);
+AccuracyForTime measure_accuracy(Formulation formulation, Integration integration = Integration::nodal);
 
 }  // namespace tessera

@@ -10,9 +10,11 @@
 #include "tessera/bench/layout.hpp"
 #include "tessera/bench/memory.hpp"
 #include "tessera/bench/triad.hpp"
+#include "tessera/discretization/cell_measure.hpp"
 #include "tessera/discretization/delaunay.hpp"
 #include "tessera/discretization/voronoi.hpp"
 #include "tessera/dynamics/leapfrog.hpp"
+#include "tessera/mechanics/cell_sweeps.hpp"
 #include "tessera/parallel/parallel.hpp"
 #include "tessera/parallel/workspaces.hpp"
 #include "tessera/tessellation/cells.hpp"
@@ -65,7 +67,7 @@ Material bench_material() {
 }
 
 /// A unit cube with about `particles` particles.
-System build(Index particles, Formulation formulation, std::map<std::string, double>& stages) {
+System build(Index particles, const MethodSpec& method, std::map<std::string, double>& stages) {
   Shape shape;
   shape.kind = BoxShape{{0, 0, 0}, {1, 1, 1}};
   const Solid solid = build_solid(shape);
@@ -73,7 +75,7 @@ System build(Index particles, Formulation formulation, std::map<std::string, dou
   LatticeSpec lattice;
   lattice.counts = std::array<int, 3>{n, n, n};
   lattice.jitter = 0.25;
-  const bool delaunay = formulation == Formulation::delaunay;
+  const bool delaunay = method.formulation == Formulation::delaunay, by_cells = method.integration == Integration::cell;
 
   PointSet points;
   std::vector<Vec3> X;
@@ -85,12 +87,19 @@ System build(Index particles, Formulation formulation, std::map<std::string, dou
   if (delaunay) {
     TetrahedralMesh mesh;
     stages["cells"] = seconds([&] { mesh = tetrahedralize(points, solid, Tetrahedralization::automatic); });
-    stages["bonds"] = seconds([&] { d = discretize_delaunay(mesh, {}); });
+    stages["bonds"] = seconds([&] {
+      d = discretize_delaunay(mesh, {});
+      if (by_cells) d.measure = measure_of_dual_cells(mesh);
+    });
   } else {
     Cells cells;
-    stages["cells"] = seconds([&] { cells = voronoi_cells(X, solid); });
+    stages["cells"] =
+        seconds([&] { cells = voronoi_cells(X, solid, by_cells ? Moments::second_of_cells : Moments::first); });
     const std::vector<Mat3> D(cells.boundary.size());
-    stages["bonds"] = seconds([&] { d = discretize_consistent(X, cells, D); });
+    stages["bonds"] = seconds([&] {
+      d = discretize_consistent(X, cells, D);
+      if (by_cells) d.measure = measure_of_cells(cells);
+    });
   }
   System system;
   stages["system"] = seconds([&] {
@@ -106,6 +115,7 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   const auto n = static_cast<std::size_t>(s.particles());
   Field<Tensor> F(n);
   Field<Double4> f(n), rim_f(s.tiles.rim.size());
+  RawField<Tensor> rims(s.gradients ? s.tiles.rim.size() : 0);
   parallel::Workspaces<TileScratch> scratches([&] { return std::make_unique<TileScratch>(s); });
   const auto sweep = [&](auto&& body) {
     return seconds_per_call([&] {
@@ -123,7 +133,10 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   };
   const auto stress = [&](Index tile, TileScratch& scratch) {
     contact(tile, scratch);
-    stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, scratch);
+    if (s.gradients)
+      cell_stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, scratch, rims.data(), {});
+    else
+      stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, scratch);
   };
   const auto force = [&](Index tile, TileScratch& scratch) {
     stress(tile, scratch);
@@ -157,13 +170,14 @@ double measure_step(const System& s, std::map<std::string, double>& stages) {
   });
 }
 
-BenchRow measure(Index particles, int threads, Formulation formulation) {
+BenchRow measure(Index particles, int threads, const MethodSpec& method) {
   parallel::set_threads(threads);
   BenchRow row;
   row.threads = threads;
-  row.formulation = formulation == Formulation::delaunay ? "delaunay" : "voronoi";
+  row.formulation = method.formulation == Formulation::delaunay ? "delaunay" : "voronoi";
+  row.integration = method.integration == Integration::cell ? "cell" : "nodal";
   const PeakMemory memory;
-  const System system = build(particles, formulation, row.stages);
+  const System system = build(particles, method, row.stages);
   if (const auto peak = memory.bytes()) row.setup_peak_bytes = *peak / static_cast<double>(system.particles());
   for (const auto& [name, time] : row.stages) row.setup_seconds += time;
   row.particles = system.particles();
@@ -183,11 +197,11 @@ std::vector<int> thread_counts(const BenchOptions& options) {
 }
 
 /// Throws UsageError when so many particles do not fit into the memory that is left.
-void require_memory(Index particles, Formulation formulation) {
+void require_memory(Index particles, const MethodSpec& method) {
   const std::optional<double> available = available_memory();
   if (particles <= 10 * sample_size || !available) return;
   std::map<std::string, double> stages;
-  const double needed = peak_over_resident * particles * bytes_per_particle(build(sample_size, formulation, stages));
+  const double needed = peak_over_resident * particles * bytes_per_particle(build(sample_size, method, stages));
   if (needed > *available)
     throw UsageError(
         fmt::format("{} particles need about {:.1f} GB while they are set up and {:.1f} GB are available; "
@@ -197,10 +211,12 @@ void require_memory(Index particles, Formulation formulation) {
 
 void measure_speed(const BenchOptions& options, BenchReport& report) {
   const std::vector<int> threads = thread_counts(options);
-  const Formulation formulation = options.formulation.value_or(Formulation::voronoi);
+  MethodSpec method;
+  method.formulation = options.formulation.value_or(Formulation::voronoi);
+  method.integration = options.integration;
   std::vector<Index> particles(std::begin(sizes), std::end(sizes));
   if (options.particles) particles = {*options.particles};
-  require_memory(particles.back(), formulation);
+  require_memory(particles.back(), method);
   for (int t : threads) {
     fmt::print(stderr, "bench: triad, {} thread{}\n", t, t == 1 ? "" : "s");
     parallel::set_threads(t);
@@ -209,7 +225,7 @@ void measure_speed(const BenchOptions& options, BenchReport& report) {
   for (Index n : particles)
     for (int t : threads) {
       fmt::print(stderr, "bench: {} particles, {} thread{}\n", n, t, t == 1 ? "" : "s");
-      report.rows.push_back(measure(n, t, formulation));
+      report.rows.push_back(measure(n, t, method));
     }
 }
 
@@ -217,7 +233,8 @@ void measure_accuracy(const BenchOptions& options, int threads, BenchReport& rep
   parallel::set_threads(options.threads.value_or(threads));
   std::vector<Formulation> formulations = {Formulation::delaunay, Formulation::voronoi};
   if (options.formulation) formulations = {*options.formulation};
-  for (Formulation formulation : formulations) report.accuracy.push_back(measure_accuracy(formulation));
+  for (Formulation formulation : formulations)
+    report.accuracy.push_back(measure_accuracy(formulation, options.integration));
 }
 
 }  // namespace

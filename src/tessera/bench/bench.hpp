@@ -18,6 +18,7 @@ struct BenchOptions {
   std::optional<Index> particles;
   std::optional<int> threads;
   std::optional<Formulation> formulation;
+  Integration integration = Integration::nodal;
   BenchParts parts = BenchParts::everything;
 };
 
@@ -26,6 +27,7 @@ struct BenchRow {
   std::int64_t particles = 0;
   int threads = 1;
   std::string formulation;
+  std::string integration;
   double particle_steps_per_second = 0.0;  // median of several batches of steps
   double bytes_per_particle_step = 0.0;    // counted from the data layout, gathers of neighbours from cache
   double bytes_per_particle = 0.0;         // resident data of the mechanics

@@ -84,10 +84,11 @@ class Follower {
 
 }  // namespace
 
-Case cantilever_case(Formulation formulation, int per_metre) {
+Case cantilever_case(Formulation formulation, int per_metre, Integration integration) {
   Case c;
   c.title = "Cantilever";
   c.method.formulation = formulation;
+  c.method.integration = integration;
   c.bodies = {beam(per_metre)};
   c.materials = {rubber()};
   c.initial = {{"", {}, {Formula(0.0), Formula(0.0), Formula("10*X/6", {})}, {}}};
@@ -98,9 +99,9 @@ Case cantilever_case(Formulation formulation, int per_metre) {
   return c;
 }
 
-CantileverPath run_cantilever(Formulation formulation, int per_metre) {
+CantileverPath run_cantilever(Formulation formulation, int per_metre, Integration integration) {
   reference_point(formulation, per_metre);
-  const Case c = cantilever_case(formulation, per_metre);
+  const Case c = cantilever_case(formulation, per_metre, integration);
   Model model = build_model(c);
   require(model.identities);
   CantileverPath path;

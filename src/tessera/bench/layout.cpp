@@ -30,7 +30,9 @@ double bytes_per_particle_step(const System& s) {
   const double force = vec3 + n.slots * vec3 + n.bonds * incoming + (1.0 + n.rim) * local + n.rim * 2.0 * vector;
   const double rims = offset + n.rim * (index + vector) + 2.0 * vector;
   const double kick_and_drift = number + vector + 2.0 * vector + 2.0 * vector;
-  return strain + contact_and_stress + force + rims + kick_and_drift;
+  const double cells = (1.0 + n.rim) * (vec3 + local) + sizeof(Mat3) + n.bonds * incoming + 2.0 * tensor +
+                       n.rim * (2.0 * tensor + index) + offset + number;
+  return strain + contact_and_stress + force + rims + kick_and_drift + (s.gradients ? cells : 0.0);
 }
 
 double bytes_per_particle(const System& s) {
@@ -40,7 +42,8 @@ double bytes_per_particle(const System& s) {
   const double constants = vec3 /* X */ + number /* V */ + vec3 /* B_aa */ + number /* m */;
   const double state = 2.0 * vector /* x, v */ + vector /* f */ + tensor /* F */;
   const double viscous = s.viscosity.empty() ? 0.0 : 2.0 * tensor + sizeof(ViscosityLaw);
-  return bonds + rims + constants + state + viscous;
+  const double cells = vec3 /* centroid */ + sizeof(Mat3) + (1.0 + n.rim) * tensor;
+  return bonds + rims + constants + state + viscous + (s.gradients ? cells : 0.0);
 }
 
 }  // namespace tessera

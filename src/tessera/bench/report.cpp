@@ -9,7 +9,7 @@ namespace tessera {
 namespace {
 
 nlohmann::ordered_json accuracy_json(const AccuracyForTime& a) {
-  nlohmann::ordered_json j = {{"formulation", a.formulation}, {"threads", a.threads}};
+  nlohmann::ordered_json j = {{"formulation", a.formulation}, {"integration", a.integration}, {"threads", a.threads}};
   j["rows"] = nlohmann::ordered_json::array();
   for (const AccuracyRow& r : a.rows)
     j["rows"].push_back({{"per_metre", r.per_metre},
@@ -47,7 +47,7 @@ std::string speed_table(const BenchReport& report) {
 }
 
 std::string accuracy_conclusion(const AccuracyForTime& a) {
-  const std::string start = fmt::format("{}, {:g}% error:", a.formulation, 100.0 * wanted_error);
+  const std::string start = fmt::format("{}, {}, {:g}% error:", a.formulation, a.integration, 100.0 * wanted_error);
   if (!a.to_wanted_error) return fmt::format("{} no estimate, the errors do not fall\n", start);
   return fmt::format("{} {:.3g} s{}\n", start, a.to_wanted_error->seconds,
                      a.to_wanted_error->extrapolated ? " (extrapolated)" : "");
@@ -77,6 +77,7 @@ std::string to_json(const BenchReport& report) {
     j["results"].push_back({{"particles", r.particles},
                             {"threads", r.threads},
                             {"formulation", r.formulation},
+                            {"integration", r.integration},
                             {"particle_steps_per_second", r.particle_steps_per_second},
                             {"bytes_per_particle_step", r.bytes_per_particle_step},
                             {"bytes_per_particle", r.bytes_per_particle},

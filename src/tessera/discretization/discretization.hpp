@@ -9,6 +9,7 @@
 #include "tessera/base/field.hpp"
 #include "tessera/base/index.hpp"
 #include "tessera/base/mat3.hpp"
+#include "tessera/base/symmetric.hpp"
 
 namespace tessera {
 
@@ -90,6 +91,12 @@ struct DirectForce {
   std::vector<Vec3> B_aa;  // per particle [m2]
 };
 
+/// The regions over which the F_a are means, for integrals over cells. Each has the particle's volume V_a.
+struct CellMeasure {
+  std::vector<Vec3> centroid;             // [m]
+  std::vector<Symmetric3> second_moment;  // about the centroid, per volume; for the set-up only [m2]
+};
+
 /// What every formulation becomes: particles, bonds, boundary nodes with their closure, and load shares.
 ///
 ///     F_a = (1/V_a) [ sum_b x_ab (x) B_ab + sum_f (x_f - x_a) (x) B_af ]
@@ -106,6 +113,7 @@ struct Discretization {
   std::vector<BoundarySite> sites;
   Csr<LoadShare> load;                          // one row per site
   std::vector<ParticleConstraint> constraints;  // sorted by particle
+  std::optional<CellMeasure> measure;           // set where cells are integrated by cubature
   double body_volume = 0.0;                     // of the solid, for the identity sum V_a = V [m3]
 
   Index particles() const { return static_cast<Index>(X.size()); }

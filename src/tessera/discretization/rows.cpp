@@ -92,6 +92,10 @@ void append(Discretization& all, Discretization body) {
     move_to_end(all.direct->B_ba, body.direct->B_ba);
     move_to_end(all.direct->B_aa, body.direct->B_aa);
   }
+  if (body.measure) {
+    move_to_end(all.measure->centroid, body.measure->centroid);
+    move_to_end(all.measure->second_moment, body.measure->second_moment);
+  }
   all.body_volume += body.body_volume;
 }
 

@@ -17,6 +17,12 @@ MethodSpec build_method(const Reader& t) {
   const std::string boundary = t.text_or_empty("boundary");
   if (boundary == "variational") method.boundary = BoundaryTreatment::variational;
   if (boundary == "quasi-static") method.boundary = BoundaryTreatment::quasi_static;
+  if (t.text("integration") == "cell") method.integration = Integration::cell;
+  if (method.integration == Integration::cell && method.boundary == BoundaryTreatment::quasi_static)
+    throw InputError(
+        t.origin_of("integration"),
+        "found \"cell\" with boundary = \"quasi-static\", whose forces derive from no energy that could be "
+        "integrated; take boundary = \"consistent\" or \"variational\", or integration = \"nodal\"");
   const std::string tetrahedra = t.text_or_empty("tetrahedra");
   if (tetrahedra == "delaunay") method.tetrahedra = Tetrahedralization::delaunay;
   if (tetrahedra == "split") method.tetrahedra = Tetrahedralization::split;

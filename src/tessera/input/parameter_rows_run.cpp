@@ -31,9 +31,11 @@ Rows method_rows() {
       {.key = "method.integration",
        .kind = choice,
        .presence = defaulted,
-       .choices = {"nodal"},
+       .choices = {"nodal", "cell"},
        .standard = "\"nodal\"",
-       .sentence = "One stress a particle, as in the papers."},
+       .sentence =
+           "Where the strain energy is taken: nodal, at the mean deformation of each particle, as in the papers; "
+           "cell, at six points of each cell (not with quasi-static)."},
       {.key = "method.tetrahedra",
        .kind = choice,
        .presence = defaulted,

@@ -47,6 +47,11 @@ Forces::Forces(const System& system, Flow flow)
   if (system.d.direct) rim_f_direct_.resize(system.tiles.rim.size());
   if (split_) owners_P_.resize(system.owners.size());
   if (system.plastic()) history_after_.resize(particles * static_cast<std::size_t>(system.stress_points));
+  if (system.gradients) {
+    cells_.T.resize(particles);
+    if (split_) cells_.P.resize(particles);
+    cells_.rim_energies.resize(system.tiles.rim.size());
+  }
   if (!system.viscosity.empty()) {
     viscous_.F_previous.resize(particles);
     viscous_.P_previous.resize(particles);
@@ -55,8 +60,16 @@ Forces::Forces(const System& system, Flow flow)
 
 void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
   strain(state, action);
-  sums_ = parallel::sum_tasks<StressSums>(
-      system_.tiles.size(), [&](std::int64_t tile) { return tile_forces(static_cast<Index>(tile), state, dt); });
+  const auto over_tiles = [&](auto&& body) {
+    return parallel::sum_tasks<StressSums>(system_.tiles.size(),
+                                           [&](std::int64_t tile) { return body(static_cast<Index>(tile)); });
+  };
+  if (system_.gradients) {
+    sums_ = over_tiles([&](Index tile) { return cell_stresses(tile, state, dt); });
+    sums_ += over_tiles([&](Index tile) { return cell_forces(tile, state); });
+  } else {
+    sums_ = over_tiles([&](Index tile) { return tile_forces(tile, state, dt); });
+  }
   drain();
   finish(state, action);
 }
@@ -80,20 +93,61 @@ void Forces::strain(State& state, const ExternalAction& action) {
 StressSums Forces::tile_forces(Index tile, const State& state, double dt) {
   const System& s = system_;
   const Lease scratch(scratch_);
-  const Index first = tile_of(s, tile).begin;
   const double contact = contact_sweep(s, tile, state.x.data(), F_.data(), f_.data(), *scratch);
   const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
   StressSums sums = stress_sweep(s, tile, F_.data(), history, s.viscosity.empty() ? nullptr : &viscous_, dt, *scratch);
-  sums.contact = contact;
-  for_each_owner(s, tile, [&](Index k, Index a) {
-    Columns& T = scratch->T[static_cast<std::size_t>(a - first)];
-    sums.contact += add_boundary_bonds(s, k, state.x.data(), F_[static_cast<std::size_t>(a)], T,
-                                       f_[static_cast<std::size_t>(a)], R_.data());
-    add_node_forces(s, k, T, R_.data());
-    if (split()) owners_P_[static_cast<std::size_t>(k)] = scratch->P[static_cast<std::size_t>(a - first)];
-  });
+  sums.contact = contact + boundary_forces(tile, state, *scratch);
   hand_on(tile, *scratch);
   return sums;
+}
+
+/// The same in two passes: stresses of one tile's own cells, and their part in those of the rim.
+StressSums Forces::cell_stresses(Index tile, const State& state, double dt) {
+  const System& s = system_;
+  const Lease scratch(scratch_);
+  const double contact = contact_sweep(s, tile, state.x.data(), F_.data(), f_.data(), *scratch);
+  const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
+  StressSums sums = cell_stress_sweep(s, tile, F_.data(), history, s.viscosity.empty() ? nullptr : &viscous_, dt,
+                                      *scratch, cells_.rim_energies.data(), {});
+  sums.contact = contact;
+  const auto first = static_cast<std::size_t>(tile_of(s, tile).begin);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(s, tile).size()); ++a) {
+    cells_.T[first + a] = to_tensor(scratch->T[a]);
+    if (split()) cells_.P[first + a] = to_tensor(scratch->P[a]);
+  }
+  return sums;
+}
+
+/// What complete stresses do.
+StressSums Forces::cell_forces(Index tile, const State& state) {
+  const Lease scratch(scratch_);
+  recall(tile, cells_, *scratch);
+  StressSums sums;
+  sums.contact = boundary_forces(tile, state, *scratch);
+  hand_on(tile, *scratch);
+  return sums;
+}
+
+void Forces::recall(Index tile, const CellMemory& cells, TileScratch& scratch) const {
+  const auto first = static_cast<std::size_t>(tile_of(system_, tile).begin);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(system_, tile).size()); ++a) {
+    scratch.T[a] = to_kernel(cells.T[first + a]);
+    if (!cells.P.empty()) scratch.P[a] = to_kernel(cells.P[first + a]);
+  }
+  collect_rim_stresses(system_, tile, cells.rim_energies.data(), cells.P.empty() ? scratch.T.data() : scratch.P.data());
+}
+
+/// Bonds and stresses at the boundary nodes of a tile's particles; returns the bonds' energy.
+double Forces::boundary_forces(Index tile, const State& state, TileScratch& scratch) {
+  double contact = 0.0;
+  for_each_owner(system_, tile, [&](Index k, Index owner) {
+    const auto a = static_cast<std::size_t>(owner), local = a - static_cast<std::size_t>(tile_of(system_, tile).begin);
+    Columns& T = scratch.T[local];
+    contact += add_boundary_bonds(system_, k, state.x.data(), F_[a], T, f_[a], R_.data());
+    add_node_forces(system_, k, T, R_.data());
+    if (split()) owners_P_[static_cast<std::size_t>(k)] = scratch.P[local];
+  });
+  return contact;
 }
 
 void Forces::hand_on(Index tile, TileScratch& scratch) {
@@ -130,25 +184,68 @@ void Forces::finish(const State& state, const ExternalAction& action) {
   });
 }
 
+std::vector<double> Forces::smallest_J(const State& state) const {
+  const System& s = system_;
+  std::vector<double> J(static_cast<std::size_t>(s.particles()));
+  if (!s.gradients) {
+    for (std::size_t a = 0; a < J.size(); ++a) J[a] = determinant(to_mat3(F_[a]));
+    return J;
+  }
+  RawField<Tensor> rims(s.tiles.rim.size());
+  parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
+    const auto tile = static_cast<Index>(task);
+    const Lease scratch(scratch_);
+    load_tile(s, tile, state.x.data(), F_.data(), *scratch);
+    cell_stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch, rims.data(),
+                      {nullptr, J.data(), nullptr});
+  });
+  return J;
+}
+
 Forces::Internal Forces::internal(const State& state) const {
   const System& s = system_;
   const auto particles = static_cast<std::size_t>(s.particles());
-  Internal result{Field<Tensor>(particles), Field<Double4>(particles)};
+  Internal result{Field<Tensor>(particles), Field<Double4>(particles), {}};
   Field<Double4> R(static_cast<std::size_t>(s.boundary_nodes())), rim_f(s.tiles.rim.size());
   Field<Columns> owners_P(s.owners.size());
   const Vec3* B = s.d.direct ? s.tiles.direct_B.data() : s.tiles.B.data();
   const Vec3* B_aa = s.d.direct ? s.d.direct->B_aa.data() : s.d.B_aa.data();
+  CellMemory cells;
+  if (s.gradients) {
+    cells.T.resize(particles);
+    cells.rim_energies.resize(s.tiles.rim.size());
+    result.energy.resize(particles);
+    parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
+      const auto tile = static_cast<Index>(task);
+      const Tile& t = tile_of(s, tile);
+      const Lease scratch(scratch_);
+      load_tile(s, tile, state.x.data(), F_.data(), *scratch);
+      Columns* P = split() ? scratch->P.data() : scratch->T.data();
+      std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
+      cell_stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch,
+                        cells.rim_energies.data(), {result.P.data(), nullptr, result.energy.data()});
+      for (Index a = t.begin; a < t.end; ++a) cells.T[static_cast<std::size_t>(a)] = to_tensor(P[a - t.begin]);
+    });
+  }
   parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
     const auto tile = static_cast<Index>(task);
     const Tile& t = tile_of(s, tile);
     const Lease scratch(scratch_);
     Columns* P = split() ? scratch->P.data() : scratch->T.data();
     std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
-    stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch);
+    if (s.gradients) {
+      for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(cells.T[static_cast<std::size_t>(a)]);
+      collect_rim_stresses(s, tile, cells.rim_energies.data(), P);
+    } else {
+      stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch);
+    }
     for (Index a = t.begin; a < t.end; ++a) {
       const auto k = static_cast<std::size_t>(a);
-      if (!viscous_.P_previous.empty()) P[a - t.begin] = P[a - t.begin] + to_kernel(viscous_.P_previous[k]);
-      result.P[k] = to_tensor(P[a - t.begin]);
+      if (!s.gradients) result.P[k] = to_tensor(P[a - t.begin]);
+      if (viscous_.P_previous.empty()) continue;
+      const Columns viscous = to_kernel(viscous_.P_previous[k]);
+      P[a - t.begin] = P[a - t.begin] + viscous;
+      result.P[k] = to_tensor(to_kernel(result.P[k]) + viscous);
     }
     for_each_owner(s, tile, [&](Index k, Index a) {
       owners_P[static_cast<std::size_t>(k)] = P[a - t.begin];

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tessera/loads/tractions.hpp"
+#include "tessera/mechanics/cell_sweeps.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
 #include "tessera/mechanics/state.hpp"
 #include "tessera/mechanics/sweeps.hpp"
@@ -21,7 +22,8 @@ struct ExternalAction {
 };
 
 /// Forces as the gradient of the potential: fill the boundary nodes; strain tile by tile; stress and force tile by
-/// tile; drain the boundary nodes; add up. One object is kept and reused.
+/// tile; drain the boundary nodes; add up. With cell integration stresses are complete only when all tiles have theirs,
+/// so forces are a pass of their own. One object is kept and reused.
 class Forces {
  public:
   explicit Forces(const System& system, Flow flow = Flow::allowed);
@@ -42,13 +44,18 @@ class Forces {
   const std::vector<Vec3>& reactions() const { return reactions_; }  // force on what prescribes each node [N]
   const StressSums& sums() const { return sums_; }                   // of the last evaluation
 
-  /// P_a of every particle with its viscous part [Pa], and what it exerts on the particles [N] (reactions of boundary
-  /// faces included). For output, at the state of the last evaluation.
+  /// P_a of every particle (the mean over its stress points) with its viscous part [Pa], and what it exerts on the
+  /// particles [N] (reactions of boundary faces included). For output, at the state of the last evaluation.
   struct Internal {
     Field<Tensor> P;
     Field<Double4> force;
+    std::vector<double> energy;  // mean of the stored energy over each cell [J/m3]; empty where it is that of F_a
   };
   Internal internal(const State& state) const;
+
+  /// The smallest det F in each particle's cell: of its mean F, or of its stress points, at the state of the last
+  /// evaluation.
+  std::vector<double> smallest_J(const State& state) const;
 
   /// The deformation one step ago, from which viscous stresses take their rate; empty without viscosity.
   const Field<Tensor>& previous_deformation() const { return viscous_.F_previous; }
@@ -58,6 +65,10 @@ class Forces {
  private:
   void strain(State& state, const ExternalAction& action);
   StressSums tile_forces(Index tile, const State& state, double dt);
+  StressSums cell_stresses(Index tile, const State& state, double dt);
+  StressSums cell_forces(Index tile, const State& state);
+  void recall(Index tile, const CellMemory& cells, TileScratch& scratch) const;
+  double boundary_forces(Index tile, const State& state, TileScratch& scratch);
   void hand_on(Index tile, TileScratch& scratch);
   void drain();
   void finish(const State& state, const ExternalAction& action);
@@ -75,6 +86,7 @@ class Forces {
   ViscousMemory viscous_;
   Flow flow_;
   Field<PlasticState> history_after_;
+  CellMemory cells_;
   StressSums sums_;
 };
 

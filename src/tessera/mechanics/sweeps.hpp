@@ -52,6 +52,11 @@ struct alignas(64) TileNode {
   double value[16];  // F/2 column by column, position and reference position [m], and one number that means nothing
 };
 
+/// What F_a lacks at three stress points of a cell, or derivatives of its energy with respect to three tensors.
+struct ThreeTensors {
+  Columns k[3];
+};
+
 /// Memory for one tile at a time, by local numbers.
 struct TileScratch {
   explicit TileScratch(const System& s);
@@ -60,6 +65,11 @@ struct TileScratch {
   Field<TileNode> nodes;
   Field<Columns> T;  // stress of the tile's own particles that the bonds hand on [Pa]
   Field<Columns> P;  // elastic and viscous part of it where it goes another way, else empty
+
+  // Of cell integration, else empty.
+  Field<Double4> centroid;
+  Field<ThreeTensors> moments;      // derivatives of the energies of the tile's own cells with respect to G_a [J m]
+  Field<Double4> gradient_weights;  // C_ab / r^2 of four slots: x, y, z [1/m]
 };
 
 /// Sweep 1: F_a = (1/V_a) sum_b x_ab (x) B_ab, [D 32], [V 6], boundary nodes left out.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tessera/base/csr.hpp"
+#include "tessera/discretization/cell_measure.hpp"
 #include "tessera/discretization/discretization.hpp"
 #include "tessera/laws/material.hpp"
 #include "tessera/laws/viscosity.hpp"
@@ -48,6 +49,8 @@ struct System {
   std::vector<Index> receivers;      // particles that a closure names, ascending
   Csr<ReturnTerm> returned;          // the transposed closure: one row per receiver
   Csr<ReturnTerm> returned_to_node;  // the same for nodes that other nodes follow: one row per boundary node
+
+  std::optional<CellGradients> gradients;  // where cells are integrated by cubature
 
   std::vector<ViscosityLaw> viscosity;  // per particle; empty when no material is viscous
   Index stress_points = 1;              // of each particle: where laws are evaluated

@@ -71,6 +71,8 @@ std::string to_json(const Summary& s) {
   json["identities"] = Json::object();
   for (const auto& [name, violation] : s.identities) json["identities"][name] = violation;
   json["step_control"] = {{"evaluations", s.step_control.evaluations}, {"limit", s.step_control.limit}};
+  if (s.integration)
+    json["integration"] = {{"kind", s.integration->kind}, {"unresolved_cells", s.integration->unresolved_cells}};
   if (s.mass_scaling) json["mass_scaling"] = mass_scaling(*s.mass_scaling);
   json["max_force_residual"] = s.max_force_residual;
   // Names come from users: bytes that are no UTF-8 are replaced, not refused.

@@ -37,6 +37,12 @@ struct MassScalingSummary {
   double kinetic_share = 0.0;    // largest share of the kinetic energy after the first tenth of the run
 };
 
+/// How the strain energy of cells was integrated, where not at their mean deformation.
+struct IntegrationSummary {
+  std::string kind;                   // "cell"
+  std::int64_t unresolved_cells = 0;  // without neighbours in some direction, along which F counts as constant
+};
+
 /// The result of a run in numbers: the content of summary.json, key for key.
 struct Summary {
   std::string version;    // of the program
@@ -58,6 +64,7 @@ struct Summary {
   std::map<std::string, DisplacementError> errors;  // by name of the reference
   std::map<std::string, double> identities;         // largest violation of each, relative
   StepControlSummary step_control;
+  std::optional<IntegrationSummary> integration;   // the key is left out without it
   std::optional<MassScalingSummary> mass_scaling;  // the key is left out without it
   double max_force_residual = 0.0;                 // largest |force| on a free particle at the end [N]
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "tessera/discretization/cell_measure.hpp"
 #include "tessera/discretization/delaunay.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
@@ -124,6 +125,11 @@ Discretization discretize(const MethodSpec& method, std::span<const Vec3> X, con
   return discretize_consistent(X, cells, D);
 }
 
+/// What the integration over cells has to know of them.
+Moments moments_for(const MethodSpec& method) {
+  return method.integration == Integration::cell ? Moments::second_of_cells : Moments::first;
+}
+
 /// A traction along a component whose motion is prescribed would have no effect; a pressure that follows turns into
 /// any direction.
 void refuse_loads_on_held_components(const BuiltBody& b, double end) {
@@ -162,6 +168,7 @@ void discretize_cells(const Case& c, const BodyCells& made, const std::vector<Bo
   std::vector<Mat3> D;
   for (const PointConstraint& p : b.pieces) D.push_back(p.D);
   b.d = discretize(c.method, made.X, made.cells, D);
+  if (c.method.integration == Integration::cell) b.d.measure = measure_of_cells(made.cells);
   for (const BoundaryNode& f : b.d.nodes) b.constraints.push_back(b.pieces[static_cast<std::size_t>(f.site)]);
   b.identities = identities_of_voronoi(b.d, made.cells, made.solid_volume);
   refuse_loads_on_held_components(b, c.time.end);
@@ -179,7 +186,7 @@ BuiltBody build_voronoi(const Case& c, const BodySpec& body, const Solid& solid,
   relax_points(body, solid, given.points, b.notes);
   b.user_number = hilbert_order(given.points);
   BodyCells made{permuted(given.points, b.user_number), {}, solid.volume};
-  made.cells = voronoi_cells(made.X, solid);
+  made.cells = voronoi_cells(made.X, solid, moments_for(c.method));
   b.surface = voronoi_surface(body, solid, made.cells);
   b.sides = side_rows(b.surface, summarize_sides(solid));
   discretize_cells(c, made, conditions, b);
@@ -221,7 +228,7 @@ BuiltBody build_in_surface(const Case& c, const BodySpec& body, const std::vecto
   b.user_number = hilbert_order(given.points);
   BodyCells made{permuted(given.points, b.user_number), {}, volume(shape.surface)};
   SurfaceCells found =
-      surface_cells(made.X, index, Moments::first, c.output.fields.cells ? Pictures::wanted : Pictures::omitted);
+      surface_cells(made.X, index, moments_for(c.method), c.output.fields.cells ? Pictures::wanted : Pictures::omitted);
   made.cells = std::move(found.cells);
   b.notes.push_back(fmt::format("surface of body \"{}\": {} triangles, {} vertices", body.name, shape.surface.size(),
                                 shape.surface.vertices.size()));
@@ -286,6 +293,7 @@ BuiltBody build_delaunay(const Case& c, const BodySpec& body, const std::optiona
     b.constraints.push_back(particles[a]);
   }
   b.d = discretize_delaunay(mesh, constraints);
+  if (c.method.integration == Integration::cell) b.d.measure = measure_of_dual_cells(mesh);
   b.identities = identities_of_delaunay(b.d, solid ? solid->volume : volume_of(mesh));
   return b;
 }

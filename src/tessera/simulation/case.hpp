@@ -20,10 +20,14 @@ enum class Formulation { delaunay, voronoi };
 /// How the cells' faces on the boundary move, theory: consistent (ours), [V 43] and [V 42].
 enum class BoundaryTreatment { consistent, variational, quasi_static };
 
+/// Where the strain energy of a cell is taken: at its mean deformation (the papers), or at six points of it.
+enum class Integration { nodal, cell };
+
 /// The [method] table.
 struct MethodSpec {
   Formulation formulation = Formulation::voronoi;
   BoundaryTreatment boundary = BoundaryTreatment::consistent;
+  Integration integration = Integration::nodal;
   Tetrahedralization tetrahedra = Tetrahedralization::automatic;
   int dimension = 3;  // 2: plane strain, a slab one cell and one metre thick
 };

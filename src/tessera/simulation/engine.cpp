@@ -152,12 +152,11 @@ void Engine::fail(Index particle, const std::string& reason) const {
 
 void Engine::verify_deformation() const {
   if (forces_.sums().finite && forces_.sums().smallest_J > 0.0) return;
-  const auto& F = forces_.deformation_gradient();
-  for (std::size_t a = 0; a < F.size(); ++a)
-    if (!std::isfinite(determinant(to_mat3(F[a])))) fail(static_cast<Index>(a), "the deformation is not finite");
-  for (std::size_t a = 0; a < F.size(); ++a)
-    if (const double J = determinant(to_mat3(F[a])); J <= 0.0)
-      fail(static_cast<Index>(a), fmt::format("the cell is inverted (J = {:.3g})", J));
+  const std::vector<double> J = forces_.smallest_J(state_);
+  for (std::size_t a = 0; a < J.size(); ++a)
+    if (!std::isfinite(J[a])) fail(static_cast<Index>(a), "the deformation is not finite");
+  for (std::size_t a = 0; a < J.size(); ++a)
+    if (J[a] <= 0.0) fail(static_cast<Index>(a), fmt::format("the cell is inverted (J = {:.3g})", J[a]));
 }
 
 void Engine::verify_energy() {

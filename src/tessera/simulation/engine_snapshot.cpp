@@ -88,8 +88,12 @@ Snapshot Engine::snapshot_of(const Observation& seen, Index begin, Index end) co
     shot.volume[u] = s.d.volume[a];
     shot.mass[u] = moved;
     const PlasticState* history = state_.plastic.empty() ? nullptr : &state_.plastic[a * points];
-    shot.energy_density[u] = std::visit(
-        [&](const auto& law) { return tessera::stored_energy(law, shot.deformation_gradient[u], history); }, m.law);
+    shot.energy_density[u] =
+        !seen.internal.energy.empty()
+            ? seen.internal.energy[a]
+            : std::visit(
+                  [&](const auto& law) { return tessera::stored_energy(law, shot.deformation_gradient[u], history); },
+                  m.law);
     shot.plastic_strain[u] = mean_plastic_strain(forces_, a);
   });
   return shot;

@@ -1,5 +1,7 @@
 #include "tessera/simulation/model.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "tessera/simulation/body_builder.hpp"
@@ -85,6 +87,16 @@ BodyModel place_body(const BuiltBody& b, const Discretization& before) {
   return m;
 }
 
+/// Cell integration falls back where neighbours do not tell how F varies.
+void note_unresolved_cells(Model& model) {
+  const auto& gradients = model.system.gradients;
+  if (!gradients || gradients->unresolved == 0) return;
+  model.notes.push_back(
+      fmt::format("cell integration: {} of {} cells have neighbours in one plane or line only; across it F counts as "
+                  "constant there, as with nodal integration",
+                  gradients->unresolved, model.system.particles()));
+}
+
 }  // namespace
 
 const BodyModel& Model::body(const std::string& name) const {
@@ -128,6 +140,7 @@ Model build_model(const Case& c) {
   model.loads.tractions = Tractions(all, parts.sites);
   model.loads.gravity = c.gravity;
   model.system = make_system(std::move(all), c.materials, model.material_of);
+  note_unresolved_cells(model);
   return model;
 }
 

@@ -230,6 +230,7 @@ void Run::summarise(const std::string& status, const std::string& message) {
   }
   s.identities = model_->identities;
   s.step_control = {engine_->step_control().evaluations(), engine_->step_control().limit()};
+  if (const auto& gradients = model_->system.gradients) s.integration = {"cell", gradients->unresolved};
   if (engine_->mass_scaling()) s.mass_scaling = mass_scaling_summary();
   s.max_force_residual = engine_->largest_force();
   write_summary(summary_path(options_.directory), s);

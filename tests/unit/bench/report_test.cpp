@@ -8,7 +8,7 @@ namespace tessera {
 namespace {
 
 AccuracyForTime accuracy(std::optional<TimeToError> time) {
-  return {"delaunay", 2, {{4, 625, 3000, 0.5, 0.0245}, {8, 3969, 6000, 12.5, 0.0177}}, time};
+  return {"delaunay", "nodal", 2, {{4, 625, 3000, 0.5, 0.0245}, {8, 3969, 6000, 12.5, 0.0177}}, time};
 }
 
 BenchReport report() {
@@ -28,8 +28,8 @@ BenchReport report() {
 TEST(BenchReport, JsonHasTheKeysThatOthersRead) {
   const auto j = nlohmann::json::parse(to_json(report()));
   EXPECT_EQ(j.at("triad_bytes_per_second").at("2"), 20e9);
-  for (const char* key : {"particles", "threads", "formulation", "particle_steps_per_second", "bytes_per_particle_step",
-                          "bytes_per_particle", "setup_seconds", "stages"})
+  for (const char* key : {"particles", "threads", "formulation", "integration", "particle_steps_per_second",
+                          "bytes_per_particle_step", "bytes_per_particle", "setup_seconds", "stages"})
     EXPECT_TRUE(j.at("results").at(0).contains(key)) << key;
   const auto& a = j.at("accuracy_for_time").at(0);
   EXPECT_EQ(a.at("formulation"), "delaunay");

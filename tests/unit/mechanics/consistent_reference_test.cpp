@@ -29,7 +29,9 @@ std::vector<Body> bodies() {
 }
 
 /// F from face positions, forces and reactions term by term: all against the library.
-TEST(ConsistentForces, AreThoseOfTheFacesPositions) {
+class ConsistentForces : public testing::TestWithParam<Integration> {};
+
+TEST_P(ConsistentForces, AreThoseOfTheFacesPositions) {
   Material m = rubber();
   m.contact = {0.8, 1.9};
   for (const Body& b : bodies()) {
@@ -40,9 +42,9 @@ TEST(ConsistentForces, AreThoseOfTheFacesPositions) {
     const std::vector<Vec3> x = noisy(b.body.X, motion, 0.05 * scale);
     std::vector<Vec3> walls;
     for (const BoundaryFace& f : b.body.cells.boundary) walls.push_back(motion(f.centroid));
-    const ConsistentReferenceForces expected(reference, b.body, m, x, walls);
+    const ConsistentReferenceForces expected(reference, b.body, m, x, walls, GetParam());
 
-    const System s = system_of(discretize(Method::consistent, b.body), m);
+    const System s = system_of(discretize(Method::consistent, b.body, GetParam()), m);
     State state = reference_state(s);
     for (std::size_t a = 0; a < x.size(); ++a) state.x[a] = to_kernel(x[a]);
     std::vector<Vec3> node_walls, wall_forces;
@@ -59,6 +61,9 @@ TEST(ConsistentForces, AreThoseOfTheFacesPositions) {
     EXPECT_LT(relative_difference(wall_forces, forces.reactions()), 1e-12);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Integrations, ConsistentForces, testing::Values(Integration::nodal, Integration::cell),
+                         [](const auto& param) { return name_of(param.param); });
 
 }  // namespace
 }  // namespace tessera::test

@@ -15,6 +15,7 @@ struct Variant {
   Method method;
   Constrain constrain;
   std::string name;
+  Integration integration = Integration::nodal;
 };
 
 /// An irregular cube in a strongly nonlinear motion, with its forces.
@@ -25,8 +26,9 @@ class ForcesFromPotential : public testing::TestWithParam<Variant> {
     forces.evaluate(state, {walls, {}, {}}, 0.0);
   }
 
-  const System s =
-      system_of(discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain), rubber());
+  const System s = system_of(
+      discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
+      rubber());
   const std::vector<Vec3> walls = walls_of(s, wavy);
   State state = reference_state(s);
   Forces forces{s};
@@ -68,18 +70,21 @@ TEST_P(ReactionsFromPotential, AreDerivativesWithRespectToWalls) {
 
 std::vector<Variant> variants() {
   std::vector<Variant> all;
-  for (Method m : {Method::delaunay, Method::consistent}) {
-    all.push_back({m, nothing, name_of(m) + "_free"});
-    all.push_back({m, mixed, name_of(m) + "_mixed"});
-    all.push_back({m, everything, name_of(m) + "_held"});
+  for (Integration i : {Integration::nodal, Integration::cell}) {
+    for (Method m : {Method::delaunay, Method::consistent}) {
+      all.push_back({m, nothing, name_of(m) + "_free_" + name_of(i), i});
+      all.push_back({m, mixed, name_of(m) + "_mixed_" + name_of(i), i});
+      all.push_back({m, everything, name_of(m) + "_held_" + name_of(i), i});
+    }
+    all.push_back({Method::variational, nothing, "variational_free_" + name_of(i), i});
   }
-  all.push_back({Method::variational, nothing, "variational_free"});
   return all;
 }
 
 INSTANTIATE_TEST_SUITE_P(Conditions, ReactionsFromPotential,
                          testing::Values(Variant{Method::consistent, mixed, "mixed"},
-                                         Variant{Method::consistent, everything, "held"}),
+                                         Variant{Method::consistent, everything, "held"},
+                                         Variant{Method::consistent, mixed, "mixed_cell", Integration::cell}),
                          [](const auto& param) { return param.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(AllFormulations, ForcesFromPotential, testing::ValuesIn(variants()),
@@ -90,8 +95,9 @@ class VariationalGhosts : public testing::TestWithParam<Variant> {};
 /// [V 43] and [V 46] with constraints: the contact force is the full derivative, the internal one is taken with
 /// prescribed branch vectors held constant (the walls move with the particle), and D P_a A_ab is added as a reaction.
 TEST_P(VariationalGhosts, InternalForceHoldsPrescribedBranches) {
-  const System s =
-      system_of(discretize(Method::variational, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain), rubber());
+  const System s = system_of(
+      discretize(Method::variational, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
+      rubber());
   const std::vector<Vec3> walls = walls_of(s, wavy);
   State state = reference_state(s);
   move(state, s, wavy);
@@ -130,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Conditions, VariationalGhosts,
                                          Variant{Method::variational, everything, "held"}),
                          [](const auto& param) { return param.param.name; });
 
-class Conservation : public testing::TestWithParam<Method> {};
+class Conservation : public testing::TestWithParam<Kind> {};
 
 /// Free bodies: forces and torques of any state add up to zero.
 TEST_P(Conservation, ForcesAndTorquesVanish) {
@@ -151,7 +157,7 @@ TEST_P(Conservation, ForcesAndTorquesVanish) {
   EXPECT_LT(norm(torque), 1e-13 * size);
 }
 
-/// F(Qx) = Q F(x) for the free body.
+/// F(Qx) = Q F(x) for the free body, and so for forces.
 TEST_P(Conservation, DeformationGradientIsObjective) {
   const System s = system_of(discretize(GetParam(), box({1, 1, 1}), {3, 3, 3}, 0.3, 3, nothing), rubber());
   const double c = std::cos(0.7), z = std::sin(0.7);
@@ -162,14 +168,21 @@ TEST_P(Conservation, DeformationGradientIsObjective) {
   Forces first(s), second(s);
   first.evaluate(state, {{}, {}, {}}, 0.0);
   second.evaluate(turned, {{}, {}, {}}, 0.0);
+  double scale = 0.0;
+  for (const Double4& f : first.total()) scale = std::max(scale, norm(to_vec3(f)));
   for (std::size_t a = 0; a < s.d.X.size(); ++a) {
     const Mat3 difference = to_mat3(second.deformation_gradient()[a]) - Q * to_mat3(first.deformation_gradient()[a]);
     EXPECT_LT(std::sqrt(contract(difference, difference)), 1e-13);
+    EXPECT_LT(norm(to_vec3(second.total()[a]) - Q * to_vec3(first.total()[a])), 1e-12 * scale);
   }
+  EXPECT_NEAR(second.sums().internal, first.sums().internal, 1e-12 * first.sums().internal);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllFormulations, Conservation,
-                         testing::Values(Method::delaunay, Method::consistent, Method::variational),
+                         testing::Values(Kind{Method::delaunay}, Kind{Method::consistent}, Kind{Method::variational},
+                                         Kind{Method::delaunay, Integration::cell},
+                                         Kind{Method::consistent, Integration::cell},
+                                         Kind{Method::variational, Integration::cell}),
                          [](const auto& param) { return name_of(param.param); });
 
 }  // namespace

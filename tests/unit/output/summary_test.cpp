@@ -57,6 +57,13 @@ TEST(Summary, HoldsEveryKey) {
   EXPECT_EQ(json["identities"]["volume"], 1e-15);
 }
 
+TEST(Summary, TellsHowCellsAreIntegrated) {
+  Summary s = example();
+  s.integration = {"cell", 12};
+  EXPECT_EQ(nlohmann::json::parse(to_json(s))["integration"],
+            (nlohmann::json{{"kind", "cell"}, {"unresolved_cells", 12}}));
+}
+
 TEST(Summary, TellsOfMassScalingWhereThereIsSome) {
   Summary s = example();
   s.mass_scaling = {2e-6, 0.5, 0.125, 7, "block", 3, 4.0, 90, 0.001};

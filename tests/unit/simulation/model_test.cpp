@@ -113,6 +113,17 @@ TEST(TwoDimensions, AreASymmetricSlab) {
   }
 }
 
+/// Across the slab nothing tells how F varies, which is said.
+TEST(TwoDimensions, AreTakenAsConstantAcrossByCellIntegration) {
+  Case c = cube_case(Method::consistent, {4, 3, 1}, 0.2);
+  c.method.dimension = 2;
+  c.method.integration = Integration::cell;
+  const Model model = build_model(c);
+  EXPECT_EQ(model.system.gradients->unresolved, 12);
+  ASSERT_FALSE(model.notes.empty());
+  EXPECT_TRUE(contains(model.notes.back(), "cell integration: 12 of 12 cells")) << model.notes.back();
+}
+
 /// Irregular points keep to their plane.
 TEST(TwoDimensions, KeepJitteredPointsInOnePlane) {
   for (Method method : {Method::delaunay, Method::consistent}) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "tessera/mechanics/sweeps.hpp"
+
+// Cell integration (theory, section 11): in place of V_a U(F_a) the potential has the mean of U over six points of each
+// cell, F_a -+ E_q, with E = G_a A_a, G_a = sum_b (F_b - F_a) (x) C_ab / r^2 over the neighbours with a common face.
+
+namespace tessera {
+
+/// What cells keep from the sweep over their points until stresses are complete.
+struct CellMemory {
+  Field<Tensor> T;                // stress that the bonds hand on, without what other tiles add [Pa]
+  Field<Tensor> P;                // elastic and viscous part of it where it goes another way, else empty
+  RawField<Tensor> rim_energies;  // what a tile's cells add to V_b T_b of its rim [J]
+};
+
+/// What is wanted of single cells beside their forces, one entry a particle or null.
+struct CellReport {
+  Tensor* mean = nullptr;        // of the stress over the cell, without viscosity [Pa]
+  double* smallest_J = nullptr;  // of the points
+  double* energy = nullptr;      // mean over the cell [J/m3]
+};
+
+/// The elastic and viscous stress of the tile's own particles by their points: adds it, and what the moments of the
+/// points' stresses do to the tile's own F_b, to T (or P, where the scratch has room for it); `rim` is set to what they
+/// do to those of the rim. Needs the nodes that contact_sweep has left.
+StressSums cell_stress_sweep(const System& s, Index tile, const Tensor* F, const HistorySpan& history,
+                             ViscousMemory* viscous, double dt, TileScratch& scratch, Tensor* rim,
+                             const CellReport& report);
+
+/// The same where the variation of F is known: `E` are the E_q of every particle, `Z` takes V_a dU/dE_q of the tile's
+/// own [J].
+StressSums varied_stress_sweep(const System& s, Index tile, const Tensor* F, const ThreeTensors* E,
+                               const HistorySpan& history, ViscousMemory* viscous, double dt, TileScratch& scratch,
+                               ThreeTensors* Z, const CellReport& report);
+
+/// Puts the tile's nodes into the scratch where there is no contact_sweep before.
+void load_tile(const System& s, Index tile, const Double4* x, const Tensor* F, TileScratch& scratch);
+
+/// Adds to the stresses T of the tile's own particles what the cells of other tiles have put into their rims.
+void collect_rim_stresses(const System& s, Index tile, const Tensor* rims, Columns* T);
+
+}  // namespace tessera

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <algorithm>
+
+#include "tessera/mechanics/sweeps.hpp"
+
+// What the kernels of the sweeps share: values of a tile and its rim by local numbers, four particles at a time.
+
+// One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__OPTIMIZE_SIZE__) && defined(__OPTIMIZE__)
+#define TESSERA_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), flatten))
+#else
+#define TESSERA_KERNEL
+#endif
+
+namespace tessera {
+
+constexpr Index quad = 4;
+
+// How far ahead values of the rim are fetched: their addresses jump, so the processor cannot foresee them.
+constexpr Index lookahead = 8;
+template <class T>
+inline void fetch(const T* value) {
+  const char* first = reinterpret_cast<const char*>(value);
+  __builtin_prefetch(first);
+  if constexpr (sizeof(T) > 64) __builtin_prefetch(first + sizeof(T) - 1);
+}
+
+inline const Tile& tile_of(const System& s, Index tile) { return s.tiles.tiles[static_cast<std::size_t>(tile)]; }
+
+/// Writes a tensor column by column; each of the first two stores overlaps the next.
+inline void store(Tensor& to, const Columns& t) {
+  __builtin_memcpy(to.m, &t.c0, sizeof(Double4));
+  __builtin_memcpy(to.m + 3, &t.c1, sizeof(Double4));
+  __builtin_memcpy(to.m + 6, &t.c2, 3 * sizeof(double));
+}
+
+/// Nodes of four particles.
+struct FourNodes {
+  Lanes3 F0, F1, F2;  // the columns of F/2
+  Lanes3 x, X;
+};
+
+inline FourNodes load_nodes(const TileNode* nodes, const std::uint16_t* local) {
+  const double *n0 = nodes[local[0]].value, *n1 = nodes[local[1]].value, *n2 = nodes[local[2]].value,
+               *n3 = nodes[local[3]].value;
+  const auto pairs = [&](Index k) { return load_pairs(n0 + k, n1 + k, n2 + k, n3 + k); };
+  const TwoLanes p0 = pairs(0), p2 = pairs(2), p4 = pairs(4), p6 = pairs(6), p8 = pairs(8), p10 = pairs(10),
+                 p12 = pairs(12), p14 = pairs(14);
+  return {{p0.first, p0.second, p2.first},
+          {p2.second, p4.first, p4.second},
+          {p6.first, p6.second, p8.first},
+          {p8.second, p10.first, p10.second},
+          {p12.first, p12.second, p14.first}};
+}
+
+/// Copies what sweeps need of the tile and its rim.
+inline void fill_nodes(const System& s, Index k, const Double4* x, const Tensor* F, TileNode* __restrict nodes) {
+  const Tile& tile = tile_of(s, k);
+  const Vec3* X = s.d.X.data();
+  const auto fill = [&](TileNode& node, Index b) {
+    for (int i = 0; i < 9; ++i) node.value[i] = 0.5 * F[b].m[i];
+    for (int i = 0; i < 3; ++i) node.value[9 + i] = x[b][i];
+    node.value[12] = X[b].x, node.value[13] = X[b].y, node.value[14] = X[b].z;
+  };
+  for (Index b = tile.begin; b < tile.end; ++b) fill(nodes[b - tile.begin], b);
+  const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
+  const Index* rim = s.tiles.rim.data() + tile.rim;
+  for (Index i = 0; i < rim_size; ++i) {
+    const Index ahead = rim[std::min(i + lookahead, rim_size - 1)];
+    fetch(F + ahead);
+    fetch(x + ahead);
+    fetch(X + ahead);
+    fill(nodes[own + i], rim[i]);
+  }
+}
+
+inline Lanes9 to_lanes(const Tensor& a, const Tensor& b, const Tensor& c, const Tensor& d) {
+  const auto pairs = [&](Index k) { return load_pairs(a.m + k, b.m + k, c.m + k, d.m + k); };
+  const TwoLanes p0 = pairs(0), p2 = pairs(2), p4 = pairs(4), p6 = pairs(6);
+  const Double4 p8{a.m[8], b.m[8], c.m[8], d.m[8]};
+  return {p0.first, p2.second, p6.first, p0.second, p4.first, p6.second, p2.first, p4.second, p8};
+}
+
+/// Adds the viscous stress of particle a, [D 61, 62], to P; returns the work that it has taken since the last time [J].
+inline double add_viscous_stress(const System& s, Index a, const Tensor& F, ViscousMemory& viscous, double dt,
+                                 Columns& P) {
+  const auto k = static_cast<std::size_t>(a);
+  const Mat3 F_a = to_mat3(F), dF = F_a - to_mat3(viscous.F_previous[k]);
+  const Mat3 P_viscous = viscous_stress(s.viscosity[k], F_a, (1.0 / dt) * dF);
+  const double work = 0.5 * s.d.volume[k] * contract(P_viscous + to_mat3(viscous.P_previous[k]), dF);
+  viscous.P_previous[k] = to_tensor(P_viscous);
+  P = P + to_kernel(P_viscous);
+  return work;
+}
+
+inline Lanes9 to_lanes(const Columns& a, const Columns& b, const Columns& c, const Columns& d) {
+  const Lanes3 c0 = transposed(a.c0, b.c0, c.c0, d.c0), c1 = transposed(a.c1, b.c1, c.c1, d.c1),
+               c2 = transposed(a.c2, b.c2, c.c2, d.c2);
+  return {c0.x, c1.x, c2.x, c0.y, c1.y, c2.y, c0.z, c1.z, c2.z};
+}
+
+/// Calls body(law), with the flow of a plastic law held where it is to be.
+template <class Laws, class Body>
+inline auto visit_law(const Laws& laws, Flow flow, Body&& body) {
+  return std::visit(
+      [&](const auto& law) {
+        if constexpr (requires { law.held(); })
+          return body(flow == Flow::held ? law.held() : law);
+        else
+          return body(law);
+      },
+      laws);
+}
+
+/// Four tensors column by column.
+struct FourColumns {
+  Columns t[4];
+};
+
+inline FourColumns columns_of(const Lanes9& l) {
+  const FourVectors c0 = transposed(Lanes3{l.xx, l.yx, l.zx}), c1 = transposed(Lanes3{l.xy, l.yy, l.zy}),
+                    c2 = transposed(Lanes3{l.xz, l.yz, l.zz});
+  FourColumns four;
+  for (int k = 0; k < 4; ++k) four.t[k] = {c0.v[k], c1.v[k], c2.v[k]};
+  return four;
+}
+
+}  // namespace tessera
