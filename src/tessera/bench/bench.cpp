@@ -109,7 +109,18 @@ System build(Index particles, const MethodSpec& method, std::map<std::string, do
   return system;
 }
 
-/// The sweeps one by one, on arrays of their own.
+/// Time that threads spend in the sweeps of the second pass over the tiles.
+struct PassSeconds {
+  double contact = 0.0, stress = 0.0, force = 0.0;
+
+  PassSeconds& operator+=(const PassSeconds& o) {
+    contact += o.contact, stress += o.stress, force += o.force;
+    return *this;
+  }
+};
+
+/// The sweeps one by one, on arrays of their own. Those of the second pass follow each other tile by tile as in a step,
+/// because each finds in the cache what went before; their times are taken within the tile.
 void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   const State state = reference_state(s);
   const auto n = static_cast<std::size_t>(s.particles());
@@ -117,37 +128,38 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   Field<Double4> f(n), rim_f(s.tiles.rim.size());
   RawField<Tensor> rims(s.gradients ? s.tiles.rim.size() : 0);
   parallel::Workspaces<TileScratch> scratches([&] { return std::make_unique<TileScratch>(s); });
-  const auto sweep = [&](auto&& body) {
-    return seconds_per_call([&] {
-      parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
-        const parallel::Workspaces<TileScratch>::Lease scratch(scratches);
-        body(static_cast<Index>(tile), *scratch);
-      });
+  using Lease = parallel::Workspaces<TileScratch>::Lease;
+  stages["strain"] = seconds_per_call([&] {
+    parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
+      const Lease scratch(scratches);
+      strain_sweep(s, static_cast<Index>(tile), state.x.data(), F.data(), *scratch);
     });
+  });
+  const auto second_pass = [&](std::int64_t task) {
+    const Lease scratch(scratches);
+    const auto tile = static_cast<Index>(task);
+    PassSeconds spent;
+    spent.contact = seconds([&] { contact_sweep(s, tile, state.x.data(), F.data(), f.data(), *scratch); });
+    spent.stress = seconds([&] {
+      if (s.gradients)
+        cell_stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, *scratch, rims.data(), {});
+      else
+        stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, *scratch);
+    });
+    spent.force = seconds(
+        [&] { force_sweep(s, tile, scratch->T.data(), s.tiles.B.data(), s.d.B_aa.data(), f.data(), rim_f.data()); });
+    return spent;
   };
-  const auto strain = [&](Index tile, TileScratch& scratch) {
-    strain_sweep(s, tile, state.x.data(), F.data(), scratch);
-  };
-  const auto contact = [&](Index tile, TileScratch& scratch) {
-    contact_sweep(s, tile, state.x.data(), F.data(), f.data(), scratch);
-  };
-  const auto stress = [&](Index tile, TileScratch& scratch) {
-    contact(tile, scratch);
-    if (s.gradients)
-      cell_stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, scratch, rims.data(), {});
-    else
-      stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, scratch);
-  };
-  const auto force = [&](Index tile, TileScratch& scratch) {
-    stress(tile, scratch);
-    force_sweep(s, tile, scratch.T.data(), s.tiles.B.data(), s.d.B_aa.data(), f.data(), rim_f.data());
-  };
-  // What follows finds in the cache what went before, so a sweep's share is a difference.
-  stages["strain"] = sweep(strain);
-  stages["contact"] = sweep(contact);
-  const double until_stress = sweep(stress), until_force = sweep(force);
-  stages["stress"] = until_stress - stages["contact"];
-  stages["force"] = until_force - until_stress;
+  std::vector<double> contact, stress, force;
+  const double pass = seconds_per_call([&] {
+    const auto spent = parallel::sum_tasks<PassSeconds>(s.tiles.size(), second_pass);
+    contact.push_back(spent.contact), stress.push_back(spent.stress), force.push_back(spent.force);
+  });
+  const PassSeconds each{median(contact), median(stress), median(force)};
+  const double share = pass / (each.contact + each.stress + each.force);  // of all threads' time
+  stages["contact"] = share * each.contact;
+  stages["stress"] = share * each.stress;
+  stages["force"] = share * each.force;
   stages["rims"] = seconds_per_call([&] {
     parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
       collect_rims(s.tiles, rim_f.data(), f.data(), static_cast<Index>(begin), static_cast<Index>(end));

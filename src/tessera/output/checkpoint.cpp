@@ -166,7 +166,8 @@ const std::vector<std::int64_t>& Checkpoint::integer(const std::string& name, st
 }
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-  Hdf5Image file(Hdf5Storage::plain);
+  ImageMemory memory;
+  Hdf5Image file(Hdf5Storage::plain, memory);
   file.attribute("/", version_key, std::array<std::int64_t, 1>{checkpoint_version});
   file.attribute("/", checksum_key, std::array<std::int64_t, 1>{checksum(checkpoint)});
   for (const char* group : {"/arrays", "/integers", "/texts"}) file.group(group);

@@ -30,7 +30,8 @@ struct ChunkedArray {
   std::size_t columns = 1;
   std::vector<std::string> chunks;
 
-  std::size_t chunk_bytes() const { return chunk_rows * columns * width_of(type); }
+  std::size_t row_bytes() const { return columns * width_of(type); }
+  std::size_t chunk_bytes() const { return chunk_rows * row_bytes(); }
 };
 
 }  // namespace tessera

@@ -11,8 +11,11 @@ namespace tessera {
 
 namespace {
 
-// Rows of a chunk: few enough that a block of particles stays in a core's cache, enough for a table of Huffman codes.
+// Rows of a chunk: few enough that they stay in a core's cache, enough for a table of Huffman codes.
 constexpr std::size_t block_rows = 8192;
+// Rows of a snapshot: the numbers that quantities are computed from stay in the cache, too, and in memory that the
+// process need not ask for anew.
+constexpr std::size_t snapshot_rows = 1024;
 
 ChunkedArray shaped(ElementType type, std::size_t rows, std::size_t columns) {
   ChunkedArray array;
@@ -25,17 +28,15 @@ ChunkedArray shaped(ElementType type, std::size_t rows, std::size_t columns) {
 }
 
 template <class T>
-void convert(std::span<const double> values, std::vector<std::byte>& bytes) {
+void convert(std::span<const double> values, std::byte* bytes) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const T value = static_cast<T>(values[i]);
-    std::memcpy(bytes.data() + i * sizeof(T), &value, sizeof(T));
+    std::memcpy(bytes + i * sizeof(T), &value, sizeof(T));
   }
 }
 
-/// `values` as elements of a chunk, which zeros fill up.
-void convert(std::span<const double> values, const ChunkedArray& array, std::vector<std::byte>& bytes) {
-  bytes.assign(array.chunk_bytes(), std::byte{0});
-  switch (array.type) {
+void convert(std::span<const double> values, ElementType type, std::byte* bytes) {
+  switch (type) {
     case ElementType::float32:
       return convert<float>(values, bytes);
     case ElementType::float64:
@@ -49,9 +50,16 @@ void convert(std::span<const double> values, const ChunkedArray& array, std::vec
   }
 }
 
-std::string compress(PlaneDeflater& deflater, const ChunkedArray& array, std::span<const std::byte> bytes) {
+void compress(PlaneDeflater& deflater, const ChunkedArray& array, std::span<const std::byte> bytes,
+              std::string& chunk) {
   const bool floating = array.type == ElementType::float32 || array.type == ElementType::float64;
-  return floating ? deflater.numbers(bytes, width_of(array.type)) : deflater.integers(bytes, width_of(array.type));
+  const std::size_t width = width_of(array.type);
+  const std::string_view stream = floating ? deflater.numbers(bytes, width) : deflater.integers(bytes, width);
+  if (stream.size() > chunk.capacity()) {  // with room for the next frame, of nearly the same size
+    chunk = {};
+    chunk.reserve(stream.size() + stream.size() / 16);
+  }
+  chunk.assign(stream);
 }
 
 VtkhdfFrame::Array named(const std::string& name, ChunkedArray&& array) {
@@ -84,36 +92,49 @@ ElementType VtkhdfFrames::type_of(const Quantity& quantity) const {
 VtkhdfFrame VtkhdfFrames::take(const SnapshotSource& source) {
   const auto n = static_cast<std::size_t>(source.particles);
   if (constants_.empty()) {
-    constants_ = compressed(source, constant_);
+    Arrays arrays;
+    constants_ = compressed(source, constant_, arrays);
     constants_.push_back(sequence("/VTKHDF/Offsets", n + 1));
     constants_.push_back(sequence("/VTKHDF/Connectivity", n));
     constants_.push_back(vertex_types(n));
   }
-  VtkhdfFrame frame{source.time, n, compressed(source, changing_), copies_of_points_};
+  VtkhdfFrame frame{source.time, n, compressed(source, changing_, memory_), copies_of_points_, image_};
   frame.arrays.insert(frame.arrays.end(), constants_.begin(), constants_.end());
   return frame;
 }
 
-std::vector<VtkhdfFrame::Array> VtkhdfFrames::compressed(const SnapshotSource& source,
-                                                         std::span<const Column> columns) {
+std::vector<VtkhdfFrame::Array> VtkhdfFrames::compressed(const SnapshotSource& source, std::span<const Column> columns,
+                                                         Arrays& arrays) {
   const auto n = static_cast<std::size_t>(source.particles);
-  std::vector<ChunkedArray> arrays;
-  for (const Column& c : columns)
-    arrays.push_back(shaped(c.type, n, static_cast<std::size_t>(c.quantity->components())));
+  arrays.resize(columns.size());
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (!arrays[c] || arrays[c]->rows != n || arrays[c].use_count() > 1)  // else the frame before is written
+      arrays[c] = std::make_shared<ChunkedArray>(
+          shaped(columns[c].type, n, static_cast<std::size_t>(columns[c].quantity->components())));
   parallel::for_tasks(static_cast<std::int64_t>((n + block_rows - 1) / block_rows), [&](std::int64_t block) {
-    const auto b = static_cast<std::size_t>(block);
-    const Snapshot part =
-        source.part(static_cast<Index>(b * block_rows), static_cast<Index>(std::min((b + 1) * block_rows, n)));
-    const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      evaluate(*columns[c].quantity, part, work->values);
-      convert(work->values, arrays[c], work->bytes);
-      arrays[c].chunks[b] = compress(work->deflater, arrays[c], work->bytes);
-    }
+    compress_block(source, columns, static_cast<std::size_t>(block), arrays);
   });
   std::vector<VtkhdfFrame::Array> result;
-  for (std::size_t c = 0; c < columns.size(); ++c) result.push_back(named(columns[c].name, std::move(arrays[c])));
+  for (std::size_t c = 0; c < columns.size(); ++c) result.push_back({columns[c].name, arrays[c]});
   return result;
+}
+
+void VtkhdfFrames::compress_block(const SnapshotSource& source, std::span<const Column> columns, std::size_t block,
+                                  const Arrays& arrays) {
+  const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
+  const std::size_t begin = block * block_rows;
+  const std::size_t end = std::min(begin + block_rows, static_cast<std::size_t>(source.particles));
+  work->bytes.resize(std::max(work->bytes.size(), columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) work->bytes[c].assign(arrays[c]->chunk_bytes(), std::byte{0});
+  for (std::size_t row = begin; row < end; row += snapshot_rows) {
+    const Snapshot part = source.part(static_cast<Index>(row), static_cast<Index>(std::min(row + snapshot_rows, end)));
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      evaluate(*columns[c].quantity, part, work->values);
+      convert(work->values, arrays[c]->type, work->bytes[c].data() + (row - begin) * arrays[c]->row_bytes());
+    }
+  }
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    compress(work->deflater, *arrays[c], work->bytes[c], arrays[c]->chunks[block]);
 }
 
 VtkhdfFrame::Array VtkhdfFrames::sequence(const std::string& name, std::size_t size) {
@@ -124,8 +145,9 @@ VtkhdfFrame::Array VtkhdfFrames::sequence(const std::string& name, std::size_t s
     work->values.clear();
     for (std::size_t i = b * block_rows; i < std::min((b + 1) * block_rows, size); ++i)
       work->values.push_back(static_cast<double>(i));
-    convert(work->values, array, work->bytes);
-    array.chunks[b] = compress(work->deflater, array, work->bytes);
+    std::vector<std::byte> bytes(array.chunk_bytes());
+    convert(work->values, array.type, bytes.data());
+    compress(work->deflater, array, bytes, array.chunks[b]);
   });
   return named(name, std::move(array));
 }
@@ -134,14 +156,14 @@ VtkhdfFrame::Array VtkhdfFrames::vertex_types(std::size_t size) {
   constexpr std::byte vtk_vertex{1};
   ChunkedArray array = shaped(ElementType::uint8, size, 1);
   const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
-  work->bytes.assign(array.chunk_bytes(), vtk_vertex);
-  for (std::string& chunk : array.chunks) chunk = compress(work->deflater, array, work->bytes);
+  const std::vector<std::byte> bytes(array.chunk_bytes(), vtk_vertex);
+  for (std::string& chunk : array.chunks) compress(work->deflater, array, bytes, chunk);
   return named("/VTKHDF/Types", std::move(array));
 }
 
 void write_field_vtkhdf(const std::string& path, const VtkhdfFrame& frame) {
   constexpr std::array<std::int64_t, 2> version = {1, 0};
-  Hdf5Image file(Hdf5Storage::compressed);
+  Hdf5Image file(Hdf5Storage::compressed, *frame.image);
   file.group("/VTKHDF");
   file.attribute("/VTKHDF", "Version", version);
   file.attribute("/VTKHDF", "Type", "UnstructuredGrid");

@@ -6,6 +6,7 @@
 
 #include "tessera/output/chunked_array.hpp"
 #include "tessera/output/field_file.hpp"
+#include "tessera/output/image_memory.hpp"
 #include "tessera/output/output_spec.hpp"
 #include "tessera/output/plane_deflater.hpp"
 #include "tessera/parallel/workspaces.hpp"
@@ -23,10 +24,11 @@ struct VtkhdfFrame {
   std::size_t particles = 0;
   std::vector<Array> arrays;
   std::vector<std::string> copies_of_points;  // names under which the positions appear as well
+  std::shared_ptr<ImageMemory> image;         // where the file is put together, one frame at a time
 };
 
 /// Takes frames. Quantities are computed and compressed in blocks of particles, in parallel; what cannot change during
-/// a run is compressed once.
+/// a run is compressed once. The memory of a frame that nobody needs any longer is used for the next.
 class VtkhdfFrames {
  public:
   VtkhdfFrames(std::span<const Quantity* const> quantities, FieldPrecision precision);
@@ -42,11 +44,15 @@ class VtkhdfFrames {
   struct Workspace {
     PlaneDeflater deflater;
     std::vector<double> values;
-    std::vector<std::byte> bytes;
+    std::vector<std::vector<std::byte>> bytes;  // of a chunk, for each column
   };
 
   ElementType type_of(const Quantity& quantity) const;
-  std::vector<VtkhdfFrame::Array> compressed(const SnapshotSource& source, std::span<const Column> columns);
+  using Arrays = std::vector<std::shared_ptr<ChunkedArray>>;
+  std::vector<VtkhdfFrame::Array> compressed(const SnapshotSource& source, std::span<const Column> columns,
+                                             Arrays& arrays);
+  void compress_block(const SnapshotSource& source, std::span<const Column> columns, std::size_t block,
+                      const Arrays& arrays);
   VtkhdfFrame::Array sequence(const std::string& name, std::size_t size);
   VtkhdfFrame::Array vertex_types(std::size_t size);
 
@@ -54,6 +60,8 @@ class VtkhdfFrames {
   std::vector<Column> changing_, constant_;
   std::vector<std::string> copies_of_points_;
   std::vector<VtkhdfFrame::Array> constants_;  // compressed with the first frame
+  Arrays memory_;                              // of the last frame
+  std::shared_ptr<ImageMemory> image_ = std::make_shared<ImageMemory>();
   std::unique_ptr<parallel::Workspaces<Workspace>> workspaces_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstring>
 
 #include "tessera/base/error.hpp"
 
@@ -81,6 +82,25 @@ Hdf5Id storage_of(Hdf5Storage storage, std::span<const hsize_t> sizes, std::size
   return chunked_storage(sizes, std::clamp<hsize_t>(chunk_bytes / row_bytes, 1, sizes[0]));
 }
 
+/// Lets images grow in memory of ours.
+void grow_in(ImageMemory& memory, const Hdf5Id& access) {
+  H5FD_file_image_callbacks_t calls{};
+  calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* owner) -> void* {
+    return static_cast<ImageMemory*>(owner)->resized(size);
+  };
+  calls.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t, void* owner) -> void* {
+    return static_cast<ImageMemory*>(owner)->resized(size);
+  };
+  calls.image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::memcpy(to, from, size);
+  };
+  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
+  calls.udata_copy = [](void* owner) { return owner; };
+  calls.udata_free = [](void*) -> herr_t { return 0; };
+  calls.udata = &memory;
+  good(H5Pset_file_image_callbacks(access.get(), &calls));
+}
+
 }  // namespace
 
 Hdf5Id& Hdf5Id::operator=(Hdf5Id&& other) noexcept {
@@ -95,10 +115,11 @@ Hdf5Id::~Hdf5Id() {
 
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-Hdf5Image::Hdf5Image(Hdf5Storage storage) : storage_(storage) {
+Hdf5Image::Hdf5Image(Hdf5Storage storage, ImageMemory& memory) : storage_(storage) {
   silence_hdf5();
   const Hdf5Id access(good(H5Pcreate(H5P_FILE_ACCESS)), H5Pclose);
   good(H5Pset_fapl_core(access.get(), image_growth, 0));
+  grow_in(memory, access);
   // From this version on most of the file's structure has checksums. (Old readers of VTKHDF want the older one.)
   if (storage == Hdf5Storage::plain) good(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18));
   const Hdf5Id creation = timeless(H5P_FILE_CREATE);

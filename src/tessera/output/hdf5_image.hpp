@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tessera/output/chunked_array.hpp"
+#include "tessera/output/image_memory.hpp"
 #include "tessera/output/output_file.hpp"
 
 namespace tessera {
@@ -39,7 +40,8 @@ enum class Hdf5Storage { compressed, plain };
 /// failed write it can neither close the file nor end the process cleanly.
 class Hdf5Image {
  public:
-  explicit Hdf5Image(Hdf5Storage storage);
+  /// `memory` belongs to the image as long as that lives.
+  Hdf5Image(Hdf5Storage storage, ImageMemory& memory);
 
   void group(const std::string& name);
   /// Arrays with `columns` > 1 are tables of size() / columns rows.

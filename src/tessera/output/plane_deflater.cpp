@@ -35,7 +35,7 @@ PlaneDeflater::PlaneDeflater() {
 
 PlaneDeflater::~PlaneDeflater() { deflateEnd(&stream_); }
 
-std::string PlaneDeflater::numbers(std::span<const std::byte> values, std::size_t width) {
+std::string_view PlaneDeflater::numbers(std::span<const std::byte> values, std::size_t width) {
   shuffle(values, width);
   const std::size_t count = values.size() / width;
   out_.resize(width * largest_block(count) + ends_of_stream);
@@ -45,10 +45,10 @@ std::string PlaneDeflater::numbers(std::span<const std::byte> values, std::size_
   put_last_block(out);
   const auto checksum = adler32_z(adler32(0, nullptr, 0), planes_.data(), planes_.size());
   for (unsigned shift : {24U, 16U, 8U, 0U}) out.put(checksum >> shift & 255U, 8);
-  return std::string(static_cast<const unsigned char*>(out_.data()), out.end());
+  return stream(static_cast<std::size_t>(out.end() - out_.data()));
 }
 
-std::string PlaneDeflater::integers(std::span<const std::byte> values, std::size_t width) {
+std::string_view PlaneDeflater::integers(std::span<const std::byte> values, std::size_t width) {
   shuffle(values, width);
   if (deflateReset(&stream_) != Z_OK) fail();
   out_.resize(deflateBound(&stream_, planes_.size()));
@@ -57,7 +57,11 @@ std::string PlaneDeflater::integers(std::span<const std::byte> values, std::size
   stream_.next_out = out_.data();
   stream_.avail_out = static_cast<uInt>(out_.size());
   if (deflate(&stream_, Z_FINISH) != Z_STREAM_END) fail();
-  return std::string(out_.data(), out_.data() + stream_.total_out);
+  return stream(stream_.total_out);
+}
+
+std::string_view PlaneDeflater::stream(std::size_t size) const {
+  return {reinterpret_cast<const char*>(out_.data()), size};
 }
 
 void PlaneDeflater::shuffle(std::span<const std::byte> values, std::size_t width) {

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera {
@@ -21,12 +21,13 @@ class PlaneDeflater {
   PlaneDeflater(const PlaneDeflater&) = delete;
   PlaneDeflater& operator=(const PlaneDeflater&) = delete;
 
-  /// The stream of floating-point numbers of `width` bytes each.
-  std::string numbers(std::span<const std::byte> values, std::size_t width);
-  /// The stream of integers, in which patterns are searched for.
-  std::string integers(std::span<const std::byte> values, std::size_t width);
+  /// The stream of floating-point numbers of `width` bytes each; it stays until the next call.
+  std::string_view numbers(std::span<const std::byte> values, std::size_t width);
+  /// The stream of integers, in which patterns are searched for; it stays until the next call.
+  std::string_view integers(std::span<const std::byte> values, std::size_t width);
 
  private:
+  std::string_view stream(std::size_t size) const;
   void shuffle(std::span<const std::byte> values, std::size_t width);
 
   z_stream stream_{};  // for integers

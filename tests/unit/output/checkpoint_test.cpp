@@ -131,7 +131,8 @@ TEST(Checkpoint, OtherHdf5FilesAreRefused) {
 
 TEST(Checkpoint, OtherVersionsAreRefused) {
   const sample::Folder folder;
-  Hdf5Image file(Hdf5Storage::plain);
+  ImageMemory memory;
+  Hdf5Image file(Hdf5Storage::plain, memory);
   file.attribute("/", "tessera_checkpoint", std::array<std::int64_t, 1>{2});
   file.save(folder.file("checkpoint.h5"), Durability::process);
   EXPECT_EQ(reading(folder),

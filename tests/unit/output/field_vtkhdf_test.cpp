@@ -103,6 +103,21 @@ TEST(FieldVtkhdf, MixedPrecisionKeepsWhatMattersBySmallDifferences) {
   }
 }
 
+TEST(FieldVtkhdf, FramesThatWaitKeepTheirMemory) {
+  const sample::Folder waiting, at_once;
+  FieldSeries late(waiting.path(), all_quantities(FieldPrecision::mixed));
+  FieldSeries early(at_once.path(), all_quantities(FieldPrecision::mixed));
+  const Snapshot first = many_particles(n, 0.25), second = many_particles(n, 0.5), third = many_particles(n, 0.75);
+  {
+    const std::vector<WriteJob> jobs = {late.take(parts_of(first)), late.take(parts_of(second))};
+    for (const WriteJob& job : jobs) job();
+  }
+  late.write(third);
+  for (const Snapshot* s : {&first, &second, &third}) early.write(*s);
+  for (const char* name : {"fields_000000.hdf", "fields_000001.hdf", "fields_000002.hdf"})
+    EXPECT_TRUE(waiting.read(name) == at_once.read(name)) << name;
+}
+
 TEST(FieldVtkhdf, HasTheSameBytesForAnyNumberOfThreads) {
   const int before = parallel::threads();
   const Snapshot s = many_particles(n, 0.5);

@@ -13,7 +13,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 /// What zlib and an inverse shuffle make of a stream; empty when zlib refuses it.
-Bytes restored(const std::string& stream, std::size_t size, std::size_t width) {
+Bytes restored(std::string_view stream, std::size_t size, std::size_t width) {
   Bytes planes(size + 1), values(size);
   uLongf length = planes.size();
   const int status = uncompress(reinterpret_cast<Bytef*>(planes.data()), &length,

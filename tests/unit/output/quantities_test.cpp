@@ -50,7 +50,7 @@ TEST(Quantities, TableHasUniqueNamesUnitsAndSentences) {
     EXPECT_EQ(evaluate(q, s).size(), 8u * static_cast<std::size_t>(q.components())) << q.name;
     EXPECT_EQ(component_suffixes(q).size(), static_cast<std::size_t>(q.components()));
   }
-  EXPECT_EQ(quantity_table().size(), 20u);
+  EXPECT_EQ(quantity_table().size(), 21u);
 }
 
 TEST(Quantities, IntegersAreMarked) {
