@@ -1,4 +1,4 @@
-"""Patch tests A, B, C on solids that triangulated surfaces enclose: cells cut by their facets.
+"""Patch tests A, B, C on solids that triangulated surfaces enclose: cells cut by their facets, tetrahedra inside.
 
 As in test_patch.py; the tractions of test C are those of the nominal stress P of the motion on facets of any direction.
 """
@@ -118,15 +118,17 @@ def write_off(path, vertices, triangles):
     path.write_text("\n".join(lines) + "\n")
 
 
-def boundary(test, held):
+def boundary(test, held, formulation):
     """The boundary conditions of a test."""
     if test != "c":
         field = FIELD if test == "a" else [f"{u}*{RAMP}" for u in FIELD]
         return f'[[boundary]]\nwhere = "surface"\ndisplacement = {json.dumps(field)}\n'
     stress = [[f"{p!r}*{RAMP}" for p in row] for row in first_piola_kirchhoff()]
     field = [f"{u}*{RAMP}" for u in FIELD]
+    # Delaunay holds particles, so that a triangle may be held at a part of its corners.
+    loaded = held.replace("<", ">=") if formulation == "voronoi" else "surface"
     return (f'[[boundary]]\nwhere = "{held}"\ndisplacement = {json.dumps(field)}\n'
-            f'[[boundary]]\nwhere = "{held.replace("<", ">=")}"\nstress = {json.dumps(stress)}\n')
+            f'[[boundary]]\nwhere = "{loaded}"\nstress = {json.dumps(stress)}\n')
 
 
 def first_piola_kirchhoff():
@@ -139,21 +141,24 @@ def first_piola_kirchhoff():
 
 
 @functools.cache
-def result(body, test):
+def result(body, test, formulation="voronoi"):
     make, spacing, held = BODIES[body]
+    jitter = ", jitter = 0.25, seed = 1" if formulation == "voronoi" else ""
     text = f"""
+[method]
+formulation = "{formulation}"
 [[body]]
 shape = {{ file = "{body}.off", units = "mm" }}
-particles = {{ spacing = {spacing}, jitter = 0.25, seed = 1 }}
+particles = {{ spacing = {spacing}{jitter} }}
 material = "rubber"
 [[material]]
 name = "rubber"
 young = {YOUNG}
 poisson = {POISSON}
 density = 1000
-{boundary(test, held)}
+{boundary(test, held, formulation)}
 [time]
-end = {0 if test == "a" else 15}
+end = {0 if test == "a" else 11}
 damping = 15
 [output]
 fields = {{ format = "csv", quantities = ["displacement", "force", "first_piola_kirchhoff"] }}
@@ -175,25 +180,41 @@ def error(r):
     return r.summary["errors"]["exact"]["displacement_max"]
 
 
+@functools.cache
+def formulations():
+    """Meshes of surfaces need a component that may be missing."""
+    try:
+        result("ball", "a", "delaunay")
+    except AssertionError as missing:
+        if "this build cannot mesh surfaces" not in str(missing):
+            raise
+        return ["voronoi"]
+    return ["voronoi", "delaunay"]
+
+
+CASES = functools.cache(lambda: [(body, formulation) for body in BODIES for formulation in formulations()])
+
+
 class SurfacePatch(unittest.TestCase):
     def test_a(self):
         """The forces of the exact field vanish."""
-        for body, (_, spacing, _) in BODIES.items():
-            r = result(body, "a")
+        for case in CASES():
+            r = result(case[0], "a", case[1])
+            spacing = BODIES[case[0]][1]
             largest = max(abs(s) for i in "xyz" for j in "xyz" for s in r.frame()[f"first_piola_kirchhoff_{i}{j}"])
             self.assertGreater(r.summary["particles"], 50)
-            self.assertLess(error(r), 1e-15, body)
-            self.assertLess(r.summary["max_force_residual"], 1e-10 * largest * spacing**2, body)
+            self.assertLess(error(r), 1e-15, case)
+            self.assertLess(r.summary["max_force_residual"], 1e-10 * largest * spacing**2, case)
 
     def test_b(self):
         """The particles follow the boundary."""
-        for body in BODIES:
-            self.assertLess(error(result(body, "b")), ROUND_OFF, body)
+        for body, formulation in CASES():
+            self.assertLess(error(result(body, "b", formulation)), ROUND_OFF, (body, formulation))
 
     def test_c(self):
         """The particles follow the tractions."""
-        for body in BODIES:
-            self.assertLess(error(result(body, "c")), ROUND_OFF, body)
+        for body, formulation in CASES():
+            self.assertLess(error(result(body, "c", formulation)), ROUND_OFF, (body, formulation))
 
 
 class Part(unittest.TestCase):
@@ -223,11 +244,12 @@ class Booleans(unittest.TestCase):
 
 def tearDownModule():
     rows = []
-    for body in BODIES:
-        a, b, c = (result(body, test) for test in "abc")
-        rows += [(f"{body}, test A: largest force", "ours", None, f"{a.summary['max_force_residual']:.2g} N", None),
-                 (f"{body}, test B: largest error", "ours", None, f"{1e3 * error(b):.2g} mm", f"{1e3 * ROUND_OFF:.2g} mm"),
-                 (f"{body}, test C: largest error", "ours", None, f"{1e3 * error(c):.2g} mm", f"{1e3 * ROUND_OFF:.2g} mm")]
+    for body, formulation in CASES():
+        a, b, c = (result(body, test, formulation) for test in "abc")
+        name = f"{body}, {formulation}"
+        rows += [(f"{name}, test A: largest force", "ours", None, f"{a.summary['max_force_residual']:.2g} N", None),
+                 (f"{name}, test B: largest error", "ours", None, f"{1e3 * error(b):.2g} mm", f"{1e3 * ROUND_OFF:.2g} mm"),
+                 (f"{name}, test C: largest error", "ours", None, f"{1e3 * error(c):.2g} mm", f"{1e3 * ROUND_OFF:.2g} mm")]
     runs.record("surfaces", rows)
 
 

@@ -19,13 +19,24 @@ FEWEST = 6
 PROBES = {"cantilever/cantilever.toml": 5e-4, "twisting-column/twisting-column.toml": 1.5e-3}
 # Runs of few long waves, which need short steps to be accurate: their case files ask for "auto".
 WAVES = {"swinging-cube-delaunay/swinging-cube.toml": 0.02, "swinging-cube-voronoi/swinging-cube.toml": 0.02}
+# Errors of the spacing, hardly of the step, against closed solutions.
+AT_REST = {"thick-walled/sphere.toml": 1e-5, "thick-walled/cylinder.toml": 1e-5, "torsion-bar/torsion-bar.toml": 1e-5}
 ENERGY = {"spinning-cube/spinning-cube.toml": 1e-3, "twisting-column/twisting-column.toml": 3e-4,
           "swinging-cube-delaunay/swinging-cube.toml": 1e-3, "swinging-cube-voronoi/swinging-cube.toml": 4e-3}
 
 
+@functools.cache
 def moving_cases():
     cases = (str(path.relative_to(runs.EXAMPLES)) for path in sorted(runs.EXAMPLES.glob("*/*.toml")))
-    return [case for case in cases if "end = 0\n" not in (runs.EXAMPLES / case).read_text()]
+    moving = [case for case in cases if "end = 0\n" not in (runs.EXAMPLES / case).read_text()]
+    return [case for case in moving if can_be_built(case)]
+
+
+def can_be_built(case):
+    """Some shapes need a component that a build may lack."""
+    if "difference" not in (runs.EXAMPLES / case).read_text():
+        return True
+    return "TESSERA_WITH_CGAL" not in runs.execute(case, {"time.end": 0})[0].stderr
 
 
 @functools.cache
@@ -93,7 +104,8 @@ class SpectralSteps(unittest.TestCase):
             if old is None:
                 continue
             with self.subTest(case=case):
-                self.assertLess(new, old * (1 + WAVES[case]) if case in WAVES else 1e-11)
+                allowed = {**WAVES, **AT_REST}
+                self.assertLess(new, old * (1 + allowed[case]) if case in allowed else 1e-11)
 
 
 def print_table():

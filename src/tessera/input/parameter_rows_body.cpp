@@ -53,7 +53,8 @@ Rows body_rows() {
        .range = above(0),
        .sentence =
            "Cube root of the volume per particle (of the area, its square root, in two dimensions): the spacing of a "
-           "cubic lattice, rounded so that whole cells fill the bounding box."},
+           "cubic lattice, rounded so that whole cells fill the bounding box. In delaunay bodies of shapes other than "
+           "boxes and polygons the length of the tetrahedra's edges, about."},
       {.key = "body.particles.count",
        .kind = integer,
        .range = between(1, 2e9),

@@ -14,6 +14,7 @@
 #include "tessera/geometry/solid_surface.hpp"
 #include "tessera/geometry/surface_sides.hpp"
 #include "tessera/loads/condition_values.hpp"
+#include "tessera/simulation/meshed_body.hpp"
 #include "tessera/simulation/relaxed_points.hpp"
 #include "tessera/tessellation/cells.hpp"
 #include "tessera/tessellation/surface_cells.hpp"
@@ -199,8 +200,6 @@ void check_surface_case(const Case& c, const Shape& shape) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(shape.origin, "a shape that is not made of boxes or of one polygon " + what);
   };
-  if (c.method.formulation != Formulation::voronoi)
-    refuse("needs method.formulation = \"voronoi\"; delaunay takes a tetrahedral mesh as particles");
   if (c.method.boundary != BoundaryTreatment::consistent)
     refuse("needs method.boundary = \"consistent\": the others want cells whose faces all bisect");
   if (c.method.dimension != 3) refuse("needs method.dimension = 3");
@@ -269,12 +268,26 @@ double volume_of(const TetrahedralMesh& mesh) {
   return six_volumes / 6.0;
 }
 
+TetrahedralMesh mesh_of(const Case& c, const BodySpec& body, const std::optional<Solid>& solid,
+                        std::vector<std::string>& notes) {
+  const bool is_surface = body.shape && !solid;
+  if (is_surface && c.method.dimension != 3)
+    throw InputError(body.shape->origin,
+                     "a shape that is not made of boxes or of one polygon needs method.dimension = 3");
+  if (is_surface && c.method.tetrahedra == Tetrahedralization::split)
+    throw InputError(
+        body.shape->origin,
+        "method.tetrahedra = \"split\" splits lattices in boxes and polygons; any other shape is filled by a "
+        "mesher");
+  if (is_surface) return mesh_of_shape(body, notes);
+  if (const auto* file = std::get_if<MeshFileSpec>(&body.particles.source)) return read_mesh(file->path);
+  return tetrahedralize(points_of(c, body, *solid), *solid, c.method.tetrahedra);
+}
+
 BuiltBody build_delaunay(const Case& c, const BodySpec& body, const std::optional<Solid>& solid,
                          const std::vector<BoundaryCondition>& conditions) {
   BuiltBody b;
-  const auto* file = std::get_if<MeshFileSpec>(&body.particles.source);
-  TetrahedralMesh mesh =
-      file != nullptr ? read_mesh(file->path) : tetrahedralize(points_of(c, body, *solid), *solid, c.method.tetrahedra);
+  TetrahedralMesh mesh = mesh_of(c, body, solid, b.notes);
   if (c.output.fields.cells) b.cells = mesh.tetrahedra;
   b.user_number = reorder(mesh);
   b.surface = delaunay_surface(body, mesh);
@@ -316,13 +329,12 @@ std::vector<BoundaryCondition> conditions_on(const Case& c, const BodySpec& body
 }
 
 BuiltBody build_body(const Case& c, const BodySpec& body, const std::vector<BoundaryCondition>& conditions) {
-  if (body.shape && !has_convex_pieces(*body.shape)) return build_in_surface(c, body, conditions);
+  const bool voronoi = c.method.formulation == Formulation::voronoi;
+  if (voronoi && !body.shape) throw InputError(body.origin, "a voronoi body needs a shape");
   std::optional<Solid> solid;
-  if (body.shape) solid = build_solid(*body.shape);
-  if (c.method.formulation == Formulation::voronoi && !solid)
-    throw InputError(body.origin, "a voronoi body needs a shape");
-  BuiltBody b = c.method.formulation == Formulation::voronoi ? build_voronoi(c, body, *solid, conditions)
-                                                             : build_delaunay(c, body, solid, conditions);
+  if (body.shape && has_convex_pieces(*body.shape)) solid = build_solid(*body.shape);
+  if (voronoi && !solid) return build_in_surface(c, body, conditions);
+  BuiltBody b = voronoi ? build_voronoi(c, body, *solid, conditions) : build_delaunay(c, body, solid, conditions);
   b.solid = std::move(solid);
   return b;
 }
