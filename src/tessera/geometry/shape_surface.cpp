@@ -80,12 +80,23 @@ TriangleSurface of_leaf(SurfaceTree& leaf) {
   return surface;
 }
 
+CheckedSurface checked_result(const Origin& origin, TriangleSurface surface, double tolerance) {
+  try {
+    return check_surface({"the result", PlaceUnit::line, std::move(surface), {}}, tolerance);
+  } catch (const GeometryError& error) {
+    throw InputError(origin,
+                     fmt::format("parts of the shape come nearer to each other than round-off can tell; let them "
+                                 "overlap, share part of a face, or keep them apart. {}",
+                                 error.what()));
+  }
+}
+
 /// Booleans can leave sides without triangles, slivers below round-off, and what bounds no solid.
 TriangleSurface of_booleans(ShapeTree& tree) {
   TriangleSurface surface = evaluate(tree.root);
   surface.side_names = tree.side_names;
   const double tolerance = kComputed * norm(bounds(surface).size());
-  CheckedSurface checked = check_surface({"the shape", PlaceUnit::line, std::move(surface), {}}, tolerance);
+  CheckedSurface checked = checked_result(tree.root.origin, std::move(surface), tolerance);
   tree.notes.push_back(fmt::format("union, difference, intersection: {}", describe(checked)));
   return std::move(checked.surface);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <utility>
@@ -73,7 +74,20 @@ class Builder {
     shape.name.clear();
     Solid solid = build_solid(shape);
     for (Side& side : solid.sides) side.names = {side.names.back()};
-    return tessera::surface_of(solid);
+    TriangleSurface surface = tessera::surface_of(solid);
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape.kind)) put_on_corners(*polygon, surface);
+    return surface;
+  }
+
+  /// Gives vertices the numbers that the user wrote, which intersections of planes miss by round-off.
+  static void put_on_corners(const PolygonShape& polygon, TriangleSurface& surface) {
+    const double top = polygon.base + polygon.thickness;
+    for (Vec3& X : surface.vertices) {
+      const auto distance2 = [&X](const std::array<double, 2>& p) { return norm2(X - Vec3{p[0], p[1], X.z}); };
+      const auto nearest = std::min_element(polygon.points.begin(), polygon.points.end(),
+                                            [&](const auto& p, const auto& q) { return distance2(p) < distance2(q); });
+      X = {(*nearest)[0], (*nearest)[1], std::abs(X.z - polygon.base) < std::abs(X.z - top) ? polygon.base : top};
+    }
   }
 
   TriangleSurface of_file(const SurfaceShape& file) {

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera {
 namespace {
 
+constexpr double kNoVolume = 1e-12;   // of the cell: what is smaller is round-off where faces lie on the surface
 constexpr double kLargestPart = 0.5;  // of the cell: what is cut off from the particle may not be larger
 
 }  // namespace
@@ -21,6 +24,7 @@ SplitCells::SplitCells(std::span<const Vec3> points, std::span<const std::unique
   check_sizes();
   while (adopt()) {
   }
+  keep_flat_parts();
   check_adopted();
 }
 
@@ -80,6 +84,18 @@ void SplitCells::check_sizes() const {
     for (std::size_t p = 0; p < cells_[a]->parts.size(); ++p)
       if (static_cast<Index>(p) != cells_[a]->home && cells_[a]->parts[p].volume > kLargestPart * total)
         report(static_cast<Index>(a), static_cast<Index>(p), "and that is more than half of the cell");
+  }
+}
+
+/// Flat parts between flat parts of other cells hold nothing that could be lost.
+void SplitCells::keep_flat_parts() {
+  for (std::size_t a = 0; a < cells_.size(); ++a) {
+    if (!cells_[a]) continue;
+    double total = 0.0;
+    for (const CutCell::Part& part : cells_[a]->parts) total += part.volume;
+    for (std::size_t p = 0; p < owner_[a].size(); ++p)
+      if (owner_[a][p] < 0 && std::abs(cells_[a]->parts[p].volume) <= kNoVolume * total)
+        owner_[a][p] = static_cast<Index>(a);
   }
 }
 

@@ -24,6 +24,7 @@ class SplitCells {
   Index part_behind(Index cell, const CutFace& face) const;
   void check_sizes() const;
   bool adopt();
+  void keep_flat_parts();
   void check_adopted() const;
   [[noreturn]] void report(Index cell, Index part, const char* text) const;
 

@@ -101,6 +101,14 @@ TEST(ShapeSurface, PinOnPlate) {
   }
 }
 
+// An edge of the polygon lies in the plane of the box's side; its corners were off that by 1e-17.
+TEST(ShapeSurface, PolygonsKeepTheNumbersOfTheirCorners) {
+  const Shape l = moved(polygon({{0, 0}, {0.5, 0}, {0.5, 0.1}, {0.1, 0.1}, {0.1, 0.4}, {0, 0.5}}, 0.3, -0.1),
+                        {{1, 1, 1}, {}, {0.25, -0.2, 0.25}});
+  const ShapeSurface rest = shape_surface(difference_of({box({0.25, -0.1, 0.2}, {0.26, 0.1, 0.7}), l}));
+  EXPECT_NEAR(volume(rest.surface), 0.01 * 0.2 * 0.25, 1e-15);
+}
+
 TEST(ShapeSurface, PartsTurnedAlikeShareTheirPlanes) {
   const ShapeMove turn{{1, 1, 1}, Rotation{{1, 1, 0}, 30, {}}, {}};
   const ShapeSurface both = shape_surface(

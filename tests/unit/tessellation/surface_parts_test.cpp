@@ -3,6 +3,10 @@
 #include <map>
 
 #include "surface_helpers.hpp"
+#include "tessera/base/error.hpp"
+#include "tessera/geometry/particles.hpp"
+#include "tessera/geometry/surface_primitives.hpp"
+#include "tessera/geometry/surface_transform.hpp"
 #include "tessera/tessellation/surface_circumcenter.hpp"
 #include "tessera/tessellation/surface_dual_cell.hpp"
 #include "tessera/tessellation/surface_fence.hpp"
@@ -94,6 +98,27 @@ TEST(Fence, KeepsItsDistanceAndHasNoGaps) {
     for (int i = 0; i < 60; ++i)
       for (const Vec3& X : fence) least = std::min(least, norm(start + (0.1 * i * distance) * way - X));
     EXPECT_LE(least, distance);
+  }
+}
+
+// A small block below a cylinder with particles: flat parts of cells, where their faces lie in the plane of the
+// cylinder's bottom, were reported in its stead, as 0 m3 at (inf, nan, inf).
+TEST(SurfaceParts, FlatPartsHideNothing) {
+  TriangleSurface both = transformed(cylinder_surface(0.3, 1, 0.005), identity(), {0.25, 0.2, 0.2});
+  const TriangleSurface block = box_surface({0.2, 0.2, 0}, {0.21, 0.4, 0.01});
+  const auto first = static_cast<Index>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), block.vertices.begin(), block.vertices.end());
+  for (const auto& [a, b, c] : block.triangles) {
+    both.triangles.push_back({first + a, first + b, first + c});
+    both.side.push_back(0);
+  }
+  const SurfaceIndex index(both);
+  const PointSet set = place_particles({LatticeSpec{{}, 0.1, 0.0, 1}, {}}, index);
+  try {
+    surface_cells(set.points, index);
+    FAIL() << "the block has no particle";
+  } catch (const GeometryError& error) {
+    EXPECT_NE(std::string(error.what()).find("1e-05 m3 around (0.205, "), std::string::npos) << error.what();
   }
 }
 
