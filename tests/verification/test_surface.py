@@ -158,7 +158,7 @@ poisson = {POISSON}
 density = 1000
 {boundary(test, held, formulation)}
 [time]
-end = {0 if test == "a" else 11}
+end = {0 if test == "a" else 15 if formulation == "voronoi" else 11}
 damping = 15
 [output]
 fields = {{ format = "csv", quantities = ["displacement", "force", "first_piola_kirchhoff"] }}
