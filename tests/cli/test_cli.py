@@ -299,6 +299,15 @@ class Surfaces(CliTest):
         self.assertEqual(process.returncode, INPUT)
         self.assertIn('"pin" overlaps', process.stderr)
 
+    def test_sizes_that_look_wrong(self):
+        self.write_case('{ file = "part.off", units = "m", scale = 1 }')
+        (self.folder / "part.off").write_text(self.TETRAHEDRON.replace("1 0 0\n", "50 0 0\n").replace("0 1 0\n", "0 50 0\n")
+                                              .replace("0 0 1\n", "0 0 50\n"))
+        notes = json.loads(self.check("--json").stdout)["notes"]
+        self.assertTrue(any("70.7 m large" in note or "86.6 m large" in note for note in notes), notes)
+        self.refused('{ file = "part.off", units = "m", translate = [1e9, 0, 0] }', "", "case.toml:4", "1e+09 m away",
+                     "translate")
+
     def test_pictures_of_cells(self):
         self.write_case('{ file = "part.off", units = "m" }')
         case = self.folder / "case.toml"
@@ -328,7 +337,7 @@ class Surfaces(CliTest):
         self.refused('{ file = "part.off" }', "", "units", "missing")
         self.refused('{ file = "part.off", units = "mile" }', "", "mile", "mm")
         self.refused('{ file = "part.off", units = "m", box = { min = [0, 0, 0], max = [1, 1, 1] } }', "", "exactly one")
-        self.refused(plain, '[method]\nformulation = "delaunay"\n', "case.toml:4", "voronoi")
+        self.refused(plain, '[method]\nformulation = "delaunay"\n', "case.toml:5", "a spacing or a count alone")
         self.refused(plain, '[method]\nboundary = "variational"\n', "case.toml:4", "consistent")
         self.refused('{ sphere = { radius = 1 } }', '[method]\nboundary = "quasi-static"\n', "case.toml:4", "bisect")
         self.refused('{ file = "other.off", units = "m" }', "", "other.off", status=GEOMETRY)

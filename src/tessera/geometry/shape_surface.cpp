@@ -101,6 +101,18 @@ TriangleSurface of_booleans(ShapeTree& tree) {
   return std::move(checked.surface);
 }
 
+/// Far from the origin round-off takes the digits of which areas and volumes are made.
+void refuse_far_away(const Shape& shape, const TriangleSurface& surface) {
+  constexpr double kFarthest = 1e7;  // in sizes
+  const Bounds box = bounds(surface);
+  const double size = norm(box.size()), away = std::max(norm(box.lower), norm(box.upper));
+  if (away > kFarthest * size)
+    throw InputError(shape.origin,
+                     fmt::format("the shape is {:.3g} m large and lies {:.3g} m away from the origin, so far "
+                                 "that round-off spoils its cells; shift it with translate",
+                                 size, away));
+}
+
 }  // namespace
 
 ShapeSurface shape_surface(const Shape& shape) {
@@ -112,6 +124,7 @@ ShapeSurface shape_surface(const Shape& shape) {
   } else {
     result.surface = of_booleans(tree);
   }
+  refuse_far_away(shape, result.surface);
   result.notes = std::move(tree.notes);
   for (const std::string& side : result.surface.side_names) result.names[side] = {side};
   OutermostNames(result, tree.side_names).add(tree.root);

@@ -26,7 +26,8 @@ struct ShapeSurface {
 ///     - flat sides that are the outermost ones of the shape or of a part, seen along an axis, also answer to "-x" ...
 ///       "+z" or "NAME.-x" ... "NAME.+z", unless another side is called so.
 ///
-/// Throws InputError at the shape's origin for impossible measures and booleans that leave nothing, GeometryError for
+/// Throws InputError at the shape's origin for impossible measures, booleans that leave nothing, and
+/// shapes more than 1e7 of their size away from the origin, GeometryError for
 /// files and for surfaces that do not bound a solid (surface_check.hpp).
 ShapeSurface shape_surface(const Shape& shape);
 

@@ -95,7 +95,19 @@ class Builder {
     if (file.split_angle) split_sides_at_edges(checked.surface, *file.split_angle);
     found_.notes.push_back(
         fmt::format("{}: {}", std::filesystem::path(file.path).filename().string(), describe(checked)));
+    note_size(file, norm(bounds(checked.surface).size()));
     return std::move(checked.surface);
+  }
+
+  /// A file says nothing of its unit, so that a wrong one shows only in the size.
+  void note_size(const SurfaceShape& file, double size) {
+    constexpr double kLarge = 10.0, kSmall = 1e-3;  // of parts drawn in mm but read in m, and the other way round [m]
+    if (file.unit == 1.0 && size > kLarge)
+      found_.notes.push_back(
+          fmt::format("  it is {:.3g} m large: was it drawn in another unit than units = \"m\"?", size));
+    if (file.unit < 1.0 && size < kSmall)
+      found_.notes.push_back(
+          fmt::format("  it is {:.3g} m large: was it drawn in a larger unit than units says?", size));
   }
 
   static double tolerance_of(const std::optional<double>& given, double radius) {
