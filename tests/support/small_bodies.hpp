@@ -148,12 +148,27 @@ inline Material rubber(double young = 1e6, double poisson = 0.3, double density 
   return m;
 }
 
+template <class Law>
+Material made_of(const Law& law) {
+  Material m = rubber();
+  m.law = law;
+  return m;
+}
+
+/// One material of every law but the neo-Hookean one; the last flows.
+inline std::vector<Material> other_materials() {
+  return {made_of(SaintVenantKirchhoff::from_young_poisson(1e6, 0.3)), made_of(MooneyRivlin{1.5e5, 0.5e5, {8e5}}),
+          made_of(Ogden{{{2e5, 1.5}, {-0.5e5, -2.0}}, {8e5}}),
+          made_of(J2Plasticity::from_young_poisson(1e6, 0.3, 1e4, 1e5))};
+}
+
 /// Tiles so small that even small bodies have several, with rims.
 constexpr Index small_tiles = 11;
 
-inline System system_of(Discretization d, const Material& m, Index particles_per_tile = small_tiles) {
+inline System system_of(Discretization d, const Material& m, Index particles_per_tile = small_tiles,
+                        Volumetric volumetric = Volumetric::standard) {
   const std::vector<Index> material(d.X.size(), 0);
-  return make_system(std::move(d), {m}, material, particles_per_tile);
+  return make_system(std::move(d), {m}, material, particles_per_tile, volumetric);
 }
 
 inline std::vector<Vec3> walls_of(const System& s, const std::function<Vec3(const Vec3&)>& motion) {

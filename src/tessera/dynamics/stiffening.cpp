@@ -22,7 +22,7 @@ template <class Law>
 double modulus(const Law& law, const Forces& forces, std::int64_t a) {
   const PlasticState* history = forces.plastic().data();
   if (history != nullptr) history += a * forces.stress_points();
-  return wave_modulus(law, to_mat3(forces.deformation_gradient()[static_cast<std::size_t>(a)]), history);
+  return wave_modulus(law, forces.law_deformation(static_cast<std::size_t>(a)), history);
 }
 
 }  // namespace

@@ -36,6 +36,13 @@ Rows method_rows() {
        .sentence =
            "Where the strain energy is taken: nodal, at the mean deformation of each particle, as in the papers; "
            "cell, at six points of each cell (not with quasi-static)."},
+      {.key = "method.volumetric",
+       .kind = choice,
+       .presence = defaulted,
+       .choices = {"standard", "averaged"},
+       .standard = "\"standard\"",
+       .sentence = "The change of volume that the law sees: each particle's own, or, for nearly incompressible solids, "
+                   "the mean over it and its neighbours (with integration = \"nodal\" only)."},
       {.key = "method.tetrahedra",
        .kind = choice,
        .presence = defaulted,

@@ -46,6 +46,7 @@ Forces::Forces(const System& system, Flow flow)
   rim_f_.resize(system.tiles.rim.size());
   if (system.d.direct) rim_f_direct_.resize(system.tiles.rim.size());
   if (split_) owners_P_.resize(system.owners.size());
+  if (system.average) averaged_.emplace(system);
   if (system.plastic()) history_after_.resize(particles * static_cast<std::size_t>(system.stress_points));
   if (system.gradients) {
     cells_.T.resize(particles);
@@ -68,7 +69,10 @@ void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
     sums_ = over_tiles([&](Index tile) { return cell_stresses(tile, state, dt); });
     sums_ += over_tiles([&](Index tile) { return cell_forces(tile, state); });
   } else {
+    StressSums averaged;
+    if (averaged_) averaged = averaged_->evaluate(F_.data(), {state.plastic.data(), history_after_.data(), flow_});
     sums_ = over_tiles([&](Index tile) { return tile_forces(tile, state, dt); });
+    sums_ += averaged;
   }
   drain();
   finish(state, action);
@@ -95,7 +99,7 @@ StressSums Forces::tile_forces(Index tile, const State& state, double dt) {
   const Lease scratch(scratch_);
   const double contact = contact_sweep(s, tile, state.x.data(), F_.data(), f_.data(), *scratch);
   const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
-  StressSums sums = stress_sweep(s, tile, F_.data(), history, s.viscosity.empty() ? nullptr : &viscous_, dt, *scratch);
+  StressSums sums = elastic_stress(tile, history, s.viscosity.empty() ? nullptr : &viscous_, dt, *scratch);
   sums.contact = contact + boundary_forces(tile, state, *scratch);
   hand_on(tile, *scratch);
   return sums;
@@ -135,6 +139,13 @@ void Forces::recall(Index tile, const CellMemory& cells, TileScratch& scratch) c
     if (!cells.P.empty()) scratch.P[a] = to_kernel(cells.P[first + a]);
   }
   collect_rim_stresses(system_, tile, cells.rim_energies.data(), cells.P.empty() ? scratch.T.data() : scratch.P.data());
+}
+
+/// Elastic and viscous stress of one tile's own particles.
+StressSums Forces::elastic_stress(Index tile, const HistorySpan& history, ViscousMemory* viscous, double dt,
+                                  TileScratch& scratch) const {
+  if (averaged_) return known_stress_sweep(system_, tile, F_.data(), averaged_->P(), viscous, dt, scratch);
+  return stress_sweep(system_, tile, F_.data(), history, viscous, dt, scratch);
 }
 
 /// Bonds and stresses at the boundary nodes of a tile's particles; returns the bonds' energy.
@@ -237,7 +248,7 @@ Forces::Internal Forces::internal(const State& state) const {
       for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(cells.T[static_cast<std::size_t>(a)]);
       collect_rim_stresses(s, tile, cells.rim_energies.data(), P);
     } else {
-      stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch);
+      elastic_stress(tile, {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch);
     }
     for (Index a = t.begin; a < t.end; ++a) {
       const auto k = static_cast<std::size_t>(a);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "tessera/loads/tractions.hpp"
+#include "tessera/mechanics/averaged_stress.hpp"
 #include "tessera/mechanics/cell_sweeps.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
 #include "tessera/mechanics/state.hpp"
@@ -41,6 +43,10 @@ class Forces {
 
   const Field<Double4>& total() const { return f_; }  // [N], reactions on constrained particles left out
   const Field<Tensor>& deformation_gradient() const { return F_; }
+  /// The deformation that the law sees at particle a: F_a, or with the mean change of volume around it.
+  Mat3 law_deformation(std::size_t a) const {
+    return averaged_ ? averaged_->law_deformation(a, F_[a]) : to_mat3(F_[a]);
+  }
   const std::vector<Vec3>& reactions() const { return reactions_; }  // force on what prescribes each node [N]
   const StressSums& sums() const { return sums_; }                   // of the last evaluation
 
@@ -68,6 +74,8 @@ class Forces {
   StressSums cell_stresses(Index tile, const State& state, double dt);
   StressSums cell_forces(Index tile, const State& state);
   void recall(Index tile, const CellMemory& cells, TileScratch& scratch) const;
+  StressSums elastic_stress(Index tile, const HistorySpan& history, ViscousMemory* viscous, double dt,
+                            TileScratch& scratch) const;
   double boundary_forces(Index tile, const State& state, TileScratch& scratch);
   void hand_on(Index tile, TileScratch& scratch);
   void drain();
@@ -87,6 +95,7 @@ class Forces {
   Flow flow_;
   Field<PlasticState> history_after_;
   CellMemory cells_;
+  std::optional<AveragedStress> averaged_;
   StressSums sums_;
 };
 

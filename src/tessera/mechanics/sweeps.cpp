@@ -154,11 +154,19 @@ inline Columns columns_of(const Lanes9& t, int k) {
           Double4{t.xz[k], t.yz[k], t.zz[k], 0.0}};
 }
 
+/// Adds the elastic and viscous stress of the tile's own particle to T, or puts it where it goes another way.
+inline void take_stress(TileScratch& scratch, Index local, const Columns& P) {
+  const auto k = static_cast<std::size_t>(local);
+  if (scratch.P.empty())
+    scratch.T[k] = scratch.T[k] + P;
+  else
+    scratch.P[k] = P;
+}
+
 template <class Law>
 inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, const Tensor* F,
                             const HistorySpan& history, ViscousMemory* viscous, double dt, TileScratch& scratch) {
   const double* volume = s.d.volume.data();
-  Columns* __restrict T = scratch.T.data();
   StressSums sums;
   Double4 smallest_J{};
   smallest_J += std::numeric_limits<double>::infinity();
@@ -176,10 +184,7 @@ inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, c
       if constexpr (HasHistory<Law>) sums.dissipated += volume[a] * response_4.dissipated[lane];
       Columns P = columns_of(response_4.stress, lane);
       if (viscous != nullptr && dt > 0.0) sums.dissipated += add_viscous_stress(s, a, F[a], *viscous, dt, P);
-      if (scratch.P.empty())
-        T[local] = T[local] + P;
-      else
-        scratch.P[static_cast<std::size_t>(local)] = P;
+      take_stress(scratch, local, P);
     }
   }
   sums.smallest_J = std::min(std::min(smallest_J[0], smallest_J[1]), std::min(smallest_J[2], smallest_J[3]));
@@ -208,6 +213,18 @@ StressSums stress_sweep(const System& s, Index k, const Tensor* F, const History
   const Tile& tile = tile_of(s, k);
   return visit_law(s.materials[static_cast<std::size_t>(tile.material)].law, history.flow,
                    [&](const auto& law) { return stress_kernel(s, tile, law, F, history, viscous, dt, scratch); });
+}
+
+StressSums known_stress_sweep(const System& s, Index k, const Tensor* F, const Tensor* P, ViscousMemory* viscous,
+                              double dt, TileScratch& scratch) {
+  const Tile& tile = tile_of(s, k);
+  StressSums sums;
+  for (Index a = tile.begin; a < tile.end; ++a) {
+    Columns P_a = to_kernel(P[a]);
+    if (viscous != nullptr && dt > 0.0) sums.dissipated += add_viscous_stress(s, a, F[a], *viscous, dt, P_a);
+    take_stress(scratch, a - tile.begin, P_a);
+  }
+  return sums;
 }
 
 TESSERA_KERNEL void force_sweep(const System& s, Index k, const Columns* T, const Vec3* B, const Vec3* B_aa, Double4* f,

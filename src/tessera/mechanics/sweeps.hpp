@@ -85,6 +85,10 @@ double contact_sweep(const System& s, Index tile, const Double4* x, const Tensor
 StressSums stress_sweep(const System& s, Index tile, const Tensor* F, const HistorySpan& history,
                         ViscousMemory* viscous, double dt, TileScratch& scratch);
 
+/// The same where the elastic stresses of all particles are known already: hands `P` of the tile's own particles on.
+StressSums known_stress_sweep(const System& s, Index tile, const Tensor* F, const Tensor* P, ViscousMemory* viscous,
+                              double dt, TileScratch& scratch);
+
 /// Sweep 3: what the tile's own particles do by their stress T, f_b -= T_a B_ab and f_a -= T_a B_aa, [D 45], [V 41]:
 /// to each other in `f`, to the rim in `rim_f`, which is set.
 void force_sweep(const System& s, Index tile, const Columns* T, const Vec3* B, const Vec3* B_aa, Double4* f,

@@ -87,7 +87,7 @@ void measure_bonds(System& s, const std::vector<Index>& material_of) {
 }  // namespace
 
 System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of,
-                   Index particles_per_tile) {
+                   Index particles_per_tile, Volumetric volumetric) {
   System s;
   s.d = std::move(d);
   s.materials = std::move(materials);
@@ -109,6 +109,7 @@ System make_system(Discretization d, std::vector<Material> materials, const std:
     s.d.measure->second_moment = {};
     s.stress_points = stress_points_of_a_cell;
   }
+  if (volumetric == Volumetric::averaged) s.average = volume_average(s.d);
   s.d.bonds = {};
   return s;
 }

@@ -10,6 +10,7 @@
 #include "tessera/laws/viscosity.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
 #include "tessera/mechanics/tiles.hpp"
+#include "tessera/mechanics/volume_average.hpp"
 
 namespace tessera {
 
@@ -51,6 +52,7 @@ struct System {
   Csr<ReturnTerm> returned_to_node;  // the same for nodes that other nodes follow: one row per boundary node
 
   std::optional<CellGradients> gradients;  // where cells are integrated by cubature
+  std::optional<VolumeAverage> average;    // where laws see a mean change of volume
 
   std::vector<ViscosityLaw> viscosity;  // per particle; empty when no material is viscous
   Index stress_points = 1;              // of each particle: where laws are evaluated
@@ -66,6 +68,6 @@ struct System {
 /// Puts a system together. `material_of` gives the material of each particle; equal ones must be consecutive within a
 /// body. `particles_per_tile` zero: tile_size().
 System make_system(Discretization d, std::vector<Material> materials, const std::vector<Index>& material_of,
-                   Index particles_per_tile = 0);
+                   Index particles_per_tile = 0, Volumetric volumetric = Volumetric::standard);
 
 }  // namespace tessera

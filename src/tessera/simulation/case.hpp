@@ -10,6 +10,7 @@
 #include "tessera/geometry/shape.hpp"
 #include "tessera/laws/material.hpp"
 #include "tessera/loads/boundary_condition.hpp"
+#include "tessera/mechanics/volume_average.hpp"
 #include "tessera/output/output_spec.hpp"
 #include "tessera/tessellation/tetrahedra.hpp"
 
@@ -29,6 +30,7 @@ struct MethodSpec {
   BoundaryTreatment boundary = BoundaryTreatment::consistent;
   Integration integration = Integration::nodal;
   Tetrahedralization tetrahedra = Tetrahedralization::automatic;
+  Volumetric volumetric = Volumetric::standard;
   int dimension = 3;  // 2: plane strain, a slab one cell and one metre thick
 };
 

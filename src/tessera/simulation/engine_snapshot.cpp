@@ -92,7 +92,7 @@ Snapshot Engine::snapshot_of(const Observation& seen, Index begin, Index end) co
         !seen.internal.energy.empty()
             ? seen.internal.energy[a]
             : std::visit(
-                  [&](const auto& law) { return tessera::stored_energy(law, shot.deformation_gradient[u], history); },
+                  [&](const auto& law) { return tessera::stored_energy(law, forces_.law_deformation(a), history); },
                   m.law);
     shot.plastic_strain[u] = mean_plastic_strain(forces_, a);
   });

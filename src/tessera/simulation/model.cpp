@@ -139,7 +139,7 @@ Model build_model(const Case& c) {
   model.loads.motion = PrescribedMotion(parts.X, parts.constraints, parts.initial);
   model.loads.tractions = Tractions(all, parts.sites);
   model.loads.gravity = c.gravity;
-  model.system = make_system(std::move(all), c.materials, model.material_of);
+  model.system = make_system(std::move(all), c.materials, model.material_of, 0, c.method.volumetric);
   note_unresolved_cells(model);
   return model;
 }

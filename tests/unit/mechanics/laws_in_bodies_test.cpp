@@ -5,23 +5,11 @@
 namespace tessera::test {
 namespace {
 
-template <class Law>
-Material made_of(const Law& law) {
-  Material m = rubber();
-  m.law = law;
-  return m;
-}
-
-std::vector<Material> materials() {
-  return {made_of(SaintVenantKirchhoff::from_young_poisson(1e6, 0.3)), made_of(MooneyRivlin{1.5e5, 0.5e5, {8e5}}),
-          made_of(Ogden{{{2e5, 1.5}, {-0.5e5, -2.0}}, {8e5}}),
-          made_of(J2Plasticity::from_young_poisson(1e6, 0.3, 1e4, 1e5))};
-}
-
 struct Variant {
   Method method;
   Constrain constrain;
   std::size_t material;
+  Volumetric volumetric = Volumetric::standard;
 };
 
 class LawsInBodies : public testing::TestWithParam<Variant> {
@@ -43,7 +31,7 @@ class LawsInBodies : public testing::TestWithParam<Variant> {
   }
 
   const System s = system_of(discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain),
-                             materials()[GetParam().material]);
+                             other_materials()[GetParam().material], small_tiles, GetParam().volumetric);
   std::vector<Vec3> walls;
   State state = reference_state(s);
   Forces forces{s};
@@ -103,17 +91,20 @@ TEST_P(FlowInBodies, HeldFlowIsStiffer) {
 
 std::vector<Variant> variants(std::size_t first) {
   std::vector<Variant> all;
-  for (std::size_t m = first; m < materials().size(); ++m) {
+  for (std::size_t m = first; m < other_materials().size(); ++m) {
     all.push_back({Method::delaunay, mixed, m});
     all.push_back({Method::consistent, mixed, m});
     all.push_back({Method::variational, nothing, m});
+    all.push_back({Method::delaunay, nothing, m, Volumetric::averaged});
+    all.push_back({Method::consistent, mixed, m, Volumetric::averaged});
   }
   return all;
 }
 
 std::string name_of_variant(const testing::TestParamInfo<Variant>& variant) {
   const std::vector<std::string> names{"svk", "mooney", "ogden", "j2"};
-  return name_of(variant.param.method) + "_" + names[variant.param.material];
+  const std::string averaged = variant.param.volumetric == Volumetric::averaged ? "_averaged" : "";
+  return name_of(variant.param.method) + "_" + names[variant.param.material] + averaged;
 }
 
 INSTANTIATE_TEST_SUITE_P(AllLaws, LawsInBodies, testing::ValuesIn(variants(0)), name_of_variant);
