@@ -156,7 +156,12 @@ Mesh evaluate(SurfaceTree& tree, const AffineMap& outer) {
       mesh = std::move(part);
       continue;
     }
-    join_planes(mesh, part, norm(bounds_of(mesh, {}).size()) + norm(bounds_of(part, {}).size()));
+    // What booleans have made must stay as it is: its flat faces may be pieces of others that would bend.
+    const double size = norm(bounds_of(mesh, {}).size()) + norm(bounds_of(part, {}).size());
+    if (tree.parts[p].is_leaf())
+      join_planes(mesh, part, size);
+    else if (p == 1 && tree.parts[0].is_leaf())
+      join_planes(part, mesh, size);
     std::optional<Mesh> result = combined(tree.boolean, mesh, part);
     if (!result)
       throw InputError(tree.parts[p].origin,

@@ -109,6 +109,17 @@ TEST(ShapeSurface, PolygonsKeepTheNumbersOfTheirCorners) {
   EXPECT_NEAR(volume(rest.surface), 0.01 * 0.2 * 0.25, 1e-15);
 }
 
+// Moved by round-off, the pieces of the ring's facets would no longer be flat.
+TEST(ShapeSurface, ResultsOfBooleansAreNotPutIntoOtherPlanes) {
+  const Shape l = moved(polygon({{0, 0}, {0.5, 0}, {0.5, 0.1}, {0.1, 0.1}, {0.1, 0.4}, {0, 0.5}}, 0.3, -0.1),
+                        {{1, 1, 1}, Rotation{{0, 0, 1}, 90, {}}, {}});
+  const Shape ring{"", test::somewhere(), TorusShape{{-0.1, 0.2, 0.25}, {1, 0, 0}, 0.5, 0.1, 0.01}};
+  const Shape brick = box({-0.3, 0.1, 0.1}, {-0.09999999999999998, 0.4, 0.6});
+  const double nested = volume(shape_surface(union_of({l, union_of({brick, ring})})).surface),
+               flat = volume(shape_surface(union_of({l, brick, ring})).surface);
+  EXPECT_NEAR(nested, flat, 1e-12);
+}
+
 TEST(ShapeSurface, PartsTurnedAlikeShareTheirPlanes) {
   const ShapeMove turn{{1, 1, 1}, Rotation{{1, 1, 0}, 30, {}}, {}};
   const ShapeSurface both = shape_surface(
