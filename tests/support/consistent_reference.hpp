@@ -83,7 +83,8 @@ class ConsistentReference {
 
   Face interior(const InteriorFace& f) const {
     const std::size_t a = to(f.a), b = to(f.b);
-    const Vec3 middle = 0.5 * (X[a] + X[b]);
+    const double s = std::clamp(f.cut, 0.1, 0.9);
+    const Vec3 middle = X[a] + s * (X[b] - X[a]);
     std::set<std::size_t> narrow{a, b}, wide{a, b};
     for (std::size_t c : near[a]) {
       wide.insert(c);
@@ -98,8 +99,8 @@ class ConsistentReference {
       Face face;
       std::size_t i = 0;
       for (std::size_t c : stencil) face.W[c] += w[i++] * identity();
-      face.W[a] += 0.5 * identity();
-      face.W[b] += 0.5 * identity();
+      face.W[a] += (1.0 - s) * identity();
+      face.W[b] += s * identity();
       return face;
     }
     throw std::runtime_error("degenerate stencil");

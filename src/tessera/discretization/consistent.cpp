@@ -122,12 +122,14 @@ class RowAssembler {
   void add_interior(Index a, const FaceOfCell& g) {
     const auto k = static_cast<std::size_t>(g.face);
     const InteriorFace& face = cells_.interior[k];
-    const Vec3 A = face.a == a ? face.area : -face.area;
+    const bool is_first = face.a == a;
+    const Vec3 A = is_first ? face.area : -face.area;
     BondEntry& across = row_[static_cast<std::size_t>(&g - faces_.row(a).data())];
-    across.B += 0.5 * A;
+    const double s = branch_share(face);
+    across.B += (is_first ? s : 1.0 - s) * A;
     const StencilFunction& w = positions_.interior[k];
     if (w.is_zero()) return;
-    const Vec3 middle = 0.5 * (at(a) + across.X);
+    const Vec3 middle = on_branch(face, is_first ? at(a) : across.X, is_first ? across.X : at(a));
     const std::span<const FaceOfCell> of_b = interior_faces(faces_, g.neighbour);
     if (positions_.is_widened[k]) return add_widened(a, of_b, middle, w, A);
     across.B += w(across.X - middle) * A;

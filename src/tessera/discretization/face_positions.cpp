@@ -80,10 +80,10 @@ void FaceFitter::both_rings(const InteriorFace& f, Scratch& s) const {
   sort_once(s.stencil);
 }
 
-/// c_f = (x_a + x_b)/2 + sum_c w_c x_c: over a, b and their common neighbours; over all neighbours of both where
+/// c_f = (1 - s) x_a + s x_b + sum_c w_c x_c: over a, b and their common neighbours; over all neighbours of both where
 /// those do not span the face's offset.
 bool FaceFitter::interior(const InteriorFace& f, Scratch& s, StencilFunction& function) const {
-  const Vec3 middle = 0.5 * (at(f.a) + at(f.b));
+  const Vec3 middle = on_branch(f, at(f.a), at(f.b));
   const Vec3 offset = f.centroid - middle;
   const double L = norm(at(f.b) - at(f.a));
   if (norm(offset) <= centred * L) return false;

@@ -19,8 +19,9 @@ struct FaceTerm {
 
 /// Positions of all faces, in the order of Cells::interior and Cells::boundary.
 ///
-/// An interior face has c_f = (x_a + x_b)/2 + sum_c w_c x_c over its stencil: a, b and their common neighbours; if it
-/// is widened, a, b and all neighbours of both. w_c is the value of the face's function at X_c - (X_a + X_b)/2.
+/// An interior face has c_f = (1 - s) x_a + s x_b + sum_c w_c x_c over its stencil: a, b and their common neighbours;
+/// if it is widened, a, b and all neighbours of both. s is branch_share(face): 1/2 but for power cells. w_c is the
+/// value of the face's function at X_c - (1 - s) X_a - s X_b.
 struct FacePositions {
   std::vector<StencilFunction> interior;
   std::vector<char> is_widened;         // of interior faces: 0 or 1

@@ -124,7 +124,8 @@ Identities identities_of_voronoi(const Discretization& d, const Cells& cells, do
     const double A = norm(f.area), L = norm(X_b - X_a);
     const Vec3 B_ab = (A / L) * (f.centroid - X_a), B_ba = (A / L) * (f.centroid - X_b);
     const double size = std::cbrt(d.volume[static_cast<std::size_t>(f.a)]);
-    antisymmetry = larger(antisymmetry, std::abs(dot(B_ab + B_ba, normalized(X_b - X_a))) / (size * size));
+    const double asymmetry = dot(B_ab + B_ba, normalized(X_b - X_a)) - (2.0 * f.cut - 1.0) * A;
+    antisymmetry = larger(antisymmetry, std::abs(asymmetry) / (size * size));
     area = larger(area, norm(B_ab - B_ba - f.area) / (size * size));
   }
   for (const BoundaryFace& f : cells.boundary) rows[static_cast<std::size_t>(f.owner)].add(f.area);

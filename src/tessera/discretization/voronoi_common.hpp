@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,16 @@
 #include "tessera/tessellation/cells.hpp"
 
 namespace tessera {
+
+/// Where on the branch of a face its position starts from, as a fraction of the way from a to b: where the face's plane
+/// cuts the branch, but not too near to either end, as weights of a stencil go with distances from there.
+inline double branch_share(const InteriorFace& f) { return std::clamp(f.cut, 0.1, 0.9); }
+
+/// That point, the middle of the branch but for power cells.
+inline Vec3 on_branch(const InteriorFace& f, const Vec3& X_a, const Vec3& X_b) {
+  const double s = branch_share(f);
+  return s == 0.5 ? 0.5 * (X_a + X_b) : (1.0 - s) * X_a + s * X_b;
+}
 
 /// A cell's face as its particle sees it: the neighbour and the face's number.
 struct FaceOfCell {

@@ -168,7 +168,7 @@ PointSet place_particles(const ParticleSpec& spec, const SurfaceIndex& index) {
         throw GeometryError(fmt::format("{}:{}: particle {} at {} does not lie inside the surface", source->path,
                                         file.lines[p], p, at(file.points[p])));
     check_distances(file.points, size, file.lines);
-    return {std::move(file.points), std::nullopt};
+    return {std::move(file.points), std::nullopt, std::move(file.radius)};
   }
   PointSet set = is_cubic_lattice(spec) ? place_cubic(std::get<LatticeSpec>(spec.source), spec.origin, index)
                                         : place_in_region(spec, {index, size});
@@ -182,7 +182,7 @@ PointSet place_particles(const ParticleSpec& spec, const Solid& solid, Placement
     FilePoints file = read_points(*source, spec.origin);
     check_inside(file, source->path, solid, placement);
     check_distances(file.points, solid.volume, file.lines);
-    return {std::move(file.points), std::nullopt};
+    return {std::move(file.points), std::nullopt, std::move(file.radius)};
   }
   PointSet set;
   if (is_cubic_lattice(spec)) {

@@ -51,7 +51,7 @@ struct RelaxedSpec {
   std::optional<Formula> size;  // local spacing up to a factor: only ratios count
 };
 
-/// Points from a CSV file with the header x,y,z [m].
+/// Points from a CSV file with the header x,y,z [m], and their radii if it has a column radius [m].
 struct PointFileSpec {
   std::string path;
 };
@@ -64,7 +64,8 @@ struct MeshFileSpec {
 struct ParticleSpec {
   std::variant<LatticeSpec, PointFileSpec, MeshFileSpec, RandomSpec, RelaxedSpec> source;
   Origin origin;
-  int dimension = 3;  // 2: irregular arrangements lie in the middle plane of a slab along z
+  int dimension = 3;                   // 2: irregular arrangements lie in the middle plane of a slab along z
+  std::optional<Formula> radius = {};  // of power cells [m], taken where the particles are in the end
 };
 
 /// Where a formulation wants its particles: in the centres of lattice cells (voronoi) or on the lattice's
@@ -80,8 +81,9 @@ struct Lattice {
 };
 
 struct PointSet {
-  std::vector<Vec3> points;        // [m]
-  std::optional<Lattice> lattice;  // set for lattices only
+  std::vector<Vec3> points;         // [m]
+  std::optional<Lattice> lattice;   // set for lattices only
+  std::vector<double> radius = {};  // of power cells [m], one for each point or none
 };
 
 /// Places particles in `solid`. The same specification gives the same points on every machine. Relaxed particles are

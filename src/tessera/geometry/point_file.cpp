@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -11,6 +13,9 @@
 
 namespace tessera {
 namespace {
+
+constexpr std::array<std::string_view, 4> kColumns{"x", "y", "z", "radius"};
+constexpr std::size_t kRadius = 3;
 
 struct Field {
   std::string_view text;
@@ -56,23 +61,31 @@ class Reader {
 
   void read_header() {
     for (const Field& field : split(line_)) {
-      const std::size_t d = std::string_view("xyz").find(field.text);
-      if (field.text.size() != 1 || d == std::string_view::npos)
+      const auto name = std::find(kColumns.begin(), kColumns.end(), field.text);
+      if (name == kColumns.end())
         fail(field.column,
-             fmt::format("unknown column '{}'; the header must be x,y,z (in any order, nothing else)", field.text));
-      for (const int known : component_)
-        if (known == static_cast<int>(d)) fail(field.column, fmt::format("column '{}' appears twice", field.text));
-      component_.push_back(static_cast<int>(d));
+             fmt::format("unknown column '{}'; the header must be x,y,z or x,y,z,radius (in any order, nothing else)",
+                         field.text));
+      const auto column = static_cast<std::size_t>(name - kColumns.begin());
+      if (std::find(columns_.begin(), columns_.end(), column) != columns_.end())
+        fail(field.column, fmt::format("column '{}' appears twice", field.text));
+      columns_.push_back(column);
     }
-    if (component_.size() != 3) fail(1, "the header must name the three columns x,y,z");
+    has_radius_ = std::find(columns_.begin(), columns_.end(), kRadius) != columns_.end();
+    if (columns_.size() != (has_radius_ ? 4U : 3U)) fail(1, "the header must name the three columns x,y,z");
     has_header_ = true;
   }
 
   void read_point() {
     const std::vector<Field> fields = split(line_);
-    if (fields.size() != 3) fail(1, fmt::format("found {} fields, expected 3", fields.size()));
+    if (fields.size() != columns_.size())
+      fail(1, fmt::format("found {} fields, expected {}", fields.size(), columns_.size()));
     Vec3 X;
-    for (std::size_t i = 0; i < 3; ++i) X[component_[i]] = number(fields[i]);
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (columns_[i] == kRadius)
+        result_.radius.push_back(radius(fields[i]));
+      else
+        X[static_cast<int>(columns_[i])] = number(fields[i]);
     result_.points.push_back(X);
     result_.lines.push_back(number_);
   }
@@ -87,12 +100,19 @@ class Reader {
     return value;
   }
 
+  double radius(const Field& field) const {
+    const double value = number(field);
+    if (value < 0.0) fail(field.column, fmt::format("the radius {} is negative", field.text));
+    return value;
+  }
+
   std::string path_;
   std::ifstream file_;
   std::string line_;
   int number_ = 0;
   bool has_header_ = false;
-  std::vector<int> component_;  // of each column: 0, 1, 2 for x, y, z
+  std::vector<std::size_t> columns_;  // what each column holds, as a place in kColumns
+  bool has_radius_ = false;
   FilePoints result_;
 };
 

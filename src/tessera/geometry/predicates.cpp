@@ -48,6 +48,15 @@ Number cross_component(const Vector& u, const Vector& v, std::size_t axis) {
 
 }  // namespace
 
+int side_of_power_sphere(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c, const WeightedPoint& d,
+                         const WeightedPoint& e) {
+  using Kernel = exact::Kernel;
+  const auto point = [](const WeightedPoint& p) {
+    return Kernel::Weighted_point_3(Kernel::Point_3(p.X.x, p.X.y, p.X.z), p.weight);
+  };
+  return CGAL::power_side_of_oriented_power_sphere(point(a), point(b), point(c), point(d), point(e));
+}
+
 int cross_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, int axis) {
   return CGAL::sign(cross_component(difference(b, a), difference(d, c), static_cast<std::size_t>(axis)));
 }

@@ -117,6 +117,17 @@ inline int side_of_sphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   return exact::side_of_sphere(a, b, c, d, e);
 }
 
+struct WeightedPoint {
+  Vec3 X;
+  double weight = 0.0;  // the square of its radius
+};
+
+/// The same for the sphere orthogonal to the spheres of four weighted points: +1 where the power of e to it is
+/// negative, so that e has a part of the space that a, b, c, d would else share a corner in. Not for points in one
+/// plane. Exact.
+int side_of_power_sphere(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c, const WeightedPoint& d,
+                         const WeightedPoint& e);
+
 /// The sign of component `axis` of (b - a) x (d - c). Slow: for ties.
 int cross_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, int axis);
 

@@ -7,6 +7,12 @@ namespace tessera::input {
 
 namespace {
 
+Formula material_formula(const Reader& t, const std::string& key) {
+  Formula formula = t.formula(key);
+  if (formula.depends_on_time()) throw InputError(t.origin_of(key), "depends on t; expected a formula in X, Y, Z");
+  return formula;
+}
+
 std::uint64_t seed_of(const Reader& t) { return static_cast<std::uint64_t>(t.integer("seed")); }
 
 std::optional<Index> count_of(const Reader& t) {
@@ -46,9 +52,7 @@ RelaxedSpec build_relaxed(const Reader& t) {
   relaxed.iterations = static_cast<int>(t.integer("iterations"));
   relaxed.tolerance = t.number("tolerance");
   if (!t.has("size")) return relaxed;
-  relaxed.size = t.formula("size");
-  if (relaxed.size->depends_on_time())
-    throw InputError(t.origin_of("size"), "depends on t; expected a formula in X, Y, Z");
+  relaxed.size = material_formula(t, "size");
   return relaxed;
 }
 
@@ -56,6 +60,7 @@ ParticleSpec build_particles(const Reader& t, const MethodSpec& method) {
   ParticleSpec particles;
   particles.origin = t.origin();
   particles.dimension = method.dimension;
+  if (t.has("radius")) particles.radius = material_formula(t, "radius");
   if (t.has("file")) {
     particles.source = PointFileSpec{t.text("file")};
     particles.origin = t.origin_of("file");

@@ -103,7 +103,12 @@ Rows body_rows() {
            "sets how many particles there are in all."},
       {.key = "body.particles.file",
        .kind = path,
-       .sentence = "CSV file of particle positions in m with the header x,y,z."},
+       .sentence = "CSV file of particle positions in m with the header x,y,z, or x,y,z,radius for power cells."},
+      {.key = "body.particles.radius",
+       .kind = formula,
+       .only_with = {"counts", "spacing", "count", "file"},
+       .sentence = "Radius of each particle in m, a formula in X, Y and Z: cells become power cells (voronoi with "
+                   "boundary = \"consistent\"), tetrahedra their dual, the regular triangulation (delaunay)."},
       {.key = "body.particles.mesh",
        .kind = path,
        .sentence = "Tetrahedral mesh, Gmsh .msh or VTK .vtu, whose vertices are the particles (delaunay only)."},

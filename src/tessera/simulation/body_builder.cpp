@@ -15,6 +15,7 @@
 #include "tessera/geometry/surface_sides.hpp"
 #include "tessera/loads/condition_values.hpp"
 #include "tessera/simulation/meshed_body.hpp"
+#include "tessera/simulation/radii.hpp"
 #include "tessera/simulation/relaxed_points.hpp"
 #include "tessera/tessellation/cells.hpp"
 #include "tessera/tessellation/surface_cells.hpp"
@@ -185,13 +186,16 @@ BuiltBody build_voronoi(const Case& c, const BodySpec& body, const Solid& solid,
   BuiltBody b;
   PointSet given = points_of(c, body, solid);
   relax_points(body, solid, given.points, b.notes);
+  set_radii(c.method, body.particles, given);
   b.user_number = hilbert_order(given.points);
   BodyCells made{permuted(given.points, b.user_number), {}, solid.volume};
-  made.cells = voronoi_cells(made.X, solid, moments_for(c.method));
+  const std::vector<double> weights = power_weights(given, b.user_number);
+  made.cells = voronoi_cells({made.X, weights, b.user_number}, solid, moments_for(c.method));
   b.surface = voronoi_surface(body, solid, made.cells);
   b.sides = side_rows(b.surface, summarize_sides(solid));
   discretize_cells(c, made, conditions, b);
-  if (c.output.fields.cells) b.cells = in_users_numbers(voronoi_polyhedra(made.X, solid), b.user_number);
+  if (c.output.fields.cells)
+    b.cells = in_users_numbers(voronoi_polyhedra({made.X, weights, b.user_number}, solid), b.user_number);
   return b;
 }
 
@@ -224,10 +228,12 @@ BuiltBody build_in_surface(const Case& c, const BodySpec& body, const std::vecto
   BuiltBody b;
   PointSet given = place_particles(body.particles, index);
   relax_points(body, index, given.points, b.notes);
+  set_radii(c.method, body.particles, given);
   b.user_number = hilbert_order(given.points);
   BodyCells made{permuted(given.points, b.user_number), {}, volume(shape.surface)};
-  SurfaceCells found =
-      surface_cells(made.X, index, moments_for(c.method), c.output.fields.cells ? Pictures::wanted : Pictures::omitted);
+  const std::vector<double> weights = power_weights(given, b.user_number);
+  SurfaceCells found = surface_cells({made.X, weights, b.user_number}, index, moments_for(c.method),
+                                     c.output.fields.cells ? Pictures::wanted : Pictures::omitted);
   made.cells = std::move(found.cells);
   b.notes.push_back(fmt::format("surface of body \"{}\": {} triangles, {} vertices", body.name, shape.surface.size(),
                                 shape.surface.vertices.size()));
@@ -258,6 +264,12 @@ std::vector<Index> reorder(TetrahedralMesh& mesh) {
   return order;
 }
 
+PointSet vertices_of(const Case& c, const BodySpec& body, const Solid& solid) {
+  PointSet vertices = points_of(c, body, solid);
+  set_radii(c.method, body.particles, vertices);
+  return vertices;
+}
+
 double volume_of(const TetrahedralMesh& mesh) {
   double six_volumes = 0.0;
   for (const auto& t : mesh.tetrahedra) {
@@ -281,7 +293,7 @@ TetrahedralMesh mesh_of(const Case& c, const BodySpec& body, const std::optional
         "mesher");
   if (is_surface) return mesh_of_shape(body, notes);
   if (const auto* file = std::get_if<MeshFileSpec>(&body.particles.source)) return read_mesh(file->path);
-  return tetrahedralize(points_of(c, body, *solid), *solid, c.method.tetrahedra);
+  return tetrahedralize(vertices_of(c, body, *solid), *solid, c.method.tetrahedra);
 }
 
 BuiltBody build_delaunay(const Case& c, const BodySpec& body, const std::optional<Solid>& solid,

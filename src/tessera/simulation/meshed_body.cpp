@@ -25,6 +25,7 @@ double spacing_of(const ParticleSpec& particles, double volume) {
   if (lattice->counts) refuse("counts of a lattice");
   if (lattice->kind != LatticeKind::cubic) refuse("a lattice");
   if (lattice->jitter > 0.0) refuse("jitter");
+  if (particles.radius) refuse("radii");
   return lattice->spacing ? *lattice->spacing : std::cbrt(volume / static_cast<double>(lattice->count.value()));
 }
 

@@ -6,6 +6,7 @@
 #include "tessera/base/index.hpp"
 #include "tessera/base/symmetric.hpp"
 #include "tessera/geometry/solid.hpp"
+#include "tessera/tessellation/generators.hpp"
 
 namespace tessera {
 
@@ -16,6 +17,7 @@ struct InteriorFace {
   Vec3 area;
   Vec3 centroid;
   bool bisects = true;  // false: of a part that one of the cells took over from another, so in another plane
+  double cut = 0.5;     // where the face's plane cuts the branch, as a fraction of the way from a to b; not half: power
 };
 
 /// The part of a cell's surface that lies on one side of the solid. `area` points out of the solid [m2].
@@ -44,9 +46,10 @@ struct Cells {
   std::vector<Symmetric3> interior_second_moment, boundary_second_moment;
 };
 
-/// The Voronoi cells of `points` in `solid`; a cell has the index of its point. Throws GeometryError that names the
-/// particle when one is outside the solid, two coincide, or a cell is empty or does not close.
-Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid, Moments moments = Moments::first);
+/// The Voronoi cells of `points` in `solid`, or their power cells if they have weights; a cell has the index of its
+/// point. Throws GeometryError that names the particle when one is outside the solid or its own power cell, two
+/// coincide, or a cell is empty or does not close.
+Cells voronoi_cells(const Generators& points, const Solid& solid, Moments moments = Moments::first);
 
 /// One convex part of a cell, for pictures. Faces list vertices counter-clockwise seen from outside.
 struct Polyhedron {
@@ -56,6 +59,6 @@ struct Polyhedron {
 };
 
 /// The cells as polyhedra, ordered by particle; a cell that the solid cuts into several pieces gives several.
-std::vector<Polyhedron> voronoi_polyhedra(std::span<const Vec3> points, const Solid& solid);
+std::vector<Polyhedron> voronoi_polyhedra(const Generators& points, const Solid& solid);
 
 }  // namespace tessera

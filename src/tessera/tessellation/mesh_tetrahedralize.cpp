@@ -25,7 +25,10 @@ constexpr const char* cure =
 
 std::string at(const Vec3& X) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", X.x, X.y, X.z); }
 
-void refuse_left_out_points(const TetrahedralMesh& mesh) {
+constexpr const char* cure_of_radii =
+    "the power cell of each is empty: make the radii more alike or the distances larger";
+
+void refuse_left_out_points(const TetrahedralMesh& mesh, const char* what_to_do) {
   std::vector<char> used(mesh.points.size(), 0);
   for (const Tetrahedron& t : mesh.tetrahedra)
     for (const Index v : t) used[static_cast<std::size_t>(v)] = 1;
@@ -33,7 +36,8 @@ void refuse_left_out_points(const TetrahedralMesh& mesh) {
   if (first == used.end()) return;
   const auto i = static_cast<std::size_t>(first - used.begin());
   throw GeometryError(fmt::format("{} of {} particles belong to no tetrahedron, first particle {} at {}: {}",
-                                  std::count(used.begin(), used.end(), 0), used.size(), i, at(mesh.points[i]), cure));
+                                  std::count(used.begin(), used.end(), 0), used.size(), i, at(mesh.points[i]),
+                                  what_to_do));
 }
 
 double volume_of(const TetrahedralMesh& mesh) {
@@ -71,7 +75,7 @@ TetrahedralMesh checked(const PointSet& set, const Solid& solid, std::vector<Tet
   mesh.tetrahedra = std::move(tetrahedra);
   for (Tetrahedron& t : mesh.tetrahedra) t = canonical(t);
   std::sort(mesh.tetrahedra.begin(), mesh.tetrahedra.end());
-  refuse_left_out_points(mesh);
+  refuse_left_out_points(mesh, set.radius.empty() ? cure : cure_of_radii);
   mesh.boundary = boundary_of(mesh, solid);
   refuse_wrong_volume(mesh, solid);
   for (const Side& side : solid.sides) mesh.side_names.push_back(side.names);
@@ -84,7 +88,9 @@ TetrahedralMesh by_delaunay(const PointSet& set, const Solid& solid) {
   std::exception_ptr first;
   for (const double strength : {0.0, 0.1, 0.2, 0.3, 0.4}) {
     try {
-      return checked(set, solid, delaunay_fill(set.points, solid, boundary_weights(set.points, solid, strength)));
+      std::vector<double> weights = boundary_weights(set.points, solid, strength);
+      for (std::size_t i = 0; i < set.radius.size(); ++i) weights[i] += set.radius[i] * set.radius[i];
+      return checked(set, solid, delaunay_fill(set.points, solid, weights));
     } catch (const GeometryError&) {
       if (!first) first = std::current_exception();
     }
@@ -96,6 +102,12 @@ TetrahedralMesh by_delaunay(const PointSet& set, const Solid& solid) {
 }  // namespace
 
 TetrahedralMesh tetrahedralize(const PointSet& points, const Solid& solid, Tetrahedralization how) {
+  if (!points.radius.empty()) {
+    if (how == Tetrahedralization::split)
+      throw GeometryError(
+          "cells of a lattice are split without regard to radii; take method.tetrahedra = \"delaunay\"");
+    return by_delaunay(points, solid);
+  }
   if (how == Tetrahedralization::split || (how == Tetrahedralization::automatic && !has_delaunay()))
     return checked(points, solid, split_lattice(points, solid));
   return by_delaunay(points, solid);

@@ -22,10 +22,7 @@ constexpr double kRoundoffFace = 1e-14;  // of V^(2/3): faces smaller than this 
 constexpr double kClosed = 1e-8;         // of the surface or volume: cells that miss more are wrong
 constexpr double kFirstFence = 2.0;      // distance of the first fence, in spacings
 
-std::string named(std::span<const Vec3> points, Index a) {
-  const Vec3& X = points[static_cast<std::size_t>(a)];
-  return fmt::format("particle {} at ({:g}, {:g}, {:g}) m", a, X.x, X.y, X.z);
-}
+std::string named(const Generators& points, Index a) { return "particle " + points.named(a); }
 
 /// A face of a cell in one part, as it is kept until all cells are cut.
 struct KeptFace {
@@ -58,7 +55,7 @@ Symmetric3 moved(const Symmetric3& second, const Vec3& moment, double size, cons
 
 class SurfaceAssembly {
  public:
-  SurfaceAssembly(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments, Pictures pictures)
+  SurfaceAssembly(const Generators& points, const SurfaceIndex& index, Moments moments, Pictures pictures)
       : points_(points),
         index_(index),
         moments_(moments),
@@ -96,10 +93,21 @@ class SurfaceAssembly {
         throw GeometryError(named(points_, a) + " does not lie inside the surface");
   }
 
+  /// The fence and what is around it are as light as the lightest particle.
+  std::vector<double> weights_of(std::size_t generators) const {
+    std::vector<double> weights;
+    if (!points_.has_weights()) return weights;
+    for (Index a = 0; a < static_cast<Index>(points_.size()); ++a) weights.push_back(points_.weight(a));
+    weights.resize(generators, *std::min_element(weights.begin(), weights.end()));
+    return weights;
+  }
+
   /// Cuts all cells within a fence; is it far enough away from the solid to take nothing of it?
   bool cut_all(double distance, double spacing) {
-    const std::vector<Vec3> generators = enclosed_generators(points_, fence_points(index_.surface(), distance));
-    const PointGrid grid = grid_of(generators, spacing);
+    const std::vector<Vec3> all = enclosed_generators(points_.points(), fence_points(index_.surface(), distance));
+    const std::vector<double> weights = weights_of(all.size());
+    const Generators generators(all, weights, points_.names());
+    const PointGrid grid = grid_of(all, spacing);
     struct Tools {
       DualCellCutter cells;
       SurfaceCutter surface;
@@ -278,10 +286,15 @@ class SurfaceAssembly {
     if (f.b < 0)
       cells.boundary.push_back({f.a, side_of(f), piece.area, C});
     else
-      cells.interior.push_back({f.a, f.b, piece.area, C, f.low == f.a && f.high == f.b});
+      cells.interior.push_back(interior_face(f, piece.area, C));
     if (with_faces())
       (f.b < 0 ? cells.boundary_second_moment : cells.interior_second_moment)
           .push_back(piece.second - (1.0 / piece.size) * square(piece.moment));
+  }
+
+  InteriorFace interior_face(const ListedFace& f, const Vec3& area, const Vec3& centroid) const {
+    const bool bisects = f.low == f.a && f.high == f.b;
+    return {f.a, f.b, area, centroid, bisects, bisects ? cut_of(points_, f.a, f.b) : 0.5};
   }
 
   struct Balance {
@@ -310,7 +323,7 @@ class SurfaceAssembly {
     }
   }
 
-  std::span<const Vec3> points_;
+  Generators points_;
   const SurfaceIndex& index_;
   Moments moments_;
   Pictures pictures_;
@@ -329,9 +342,9 @@ class SurfaceAssembly {
 
 }  // namespace
 
-SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments,
+SurfaceCells surface_cells(const Generators& points, const SurfaceIndex& index, Moments moments,
                            Pictures pictures) {
-  if (points.empty()) throw GeometryError("there are no particles to make Voronoi cells of");
+  if (points.size() == 0) throw GeometryError("there are no particles to make Voronoi cells of");
   return SurfaceAssembly(points, index, moments, pictures).assemble();
 }
 

@@ -19,14 +19,15 @@ struct SurfaceCells {
 enum class Pictures { omitted, wanted };
 
 /// The Voronoi cells of `points` in the solid that a closed surface bounds, cut exactly, whatever its shape; a cell has
-/// the index of its point. A boundary face is flat: cells have one for every plane of a side that they reach.
+/// the index of its point. Power cells if the points have weights. A boundary face is flat: cells have one for every
+/// plane of a side that they reach.
 ///
 /// A cell that the surface cuts into several parts keeps the one around its particle. The others go to the cells
 /// behind their largest faces, whose interior faces then need not bisect anything.
 ///
 /// Throws GeometryError that names the particle when one is not inside, two coincide, or a part of more than half its
 /// cell is cut off; and when a part of the solid holds no particle at all.
-SurfaceCells surface_cells(std::span<const Vec3> points, const SurfaceIndex& index, Moments moments = Moments::first,
+SurfaceCells surface_cells(const Generators& points, const SurfaceIndex& index, Moments moments = Moments::first,
                            Pictures pictures = Pictures::omitted);
 
 }  // namespace tessera

@@ -27,7 +27,7 @@ struct Bisectors {
   std::array<Vector<Real>, 3> normal;
   Vector<Real> value;
 
-  Bisectors(std::span<const Vec3> points, const std::array<Index, 4>& generators) {
+  Bisectors(const Generators& points, const std::array<Index, 4>& generators) {
     const Vec3& base = points[static_cast<std::size_t>(generators[0])];
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3& X = points[static_cast<std::size_t>(generators[i + 1])];
@@ -36,6 +36,10 @@ struct Bisectors {
       const Real length = std::sqrt(dot_of(normal[i], normal[i]));
       for (Real& n : normal[i]) n /= length;
       value[i] = length / 2;
+      if (points.has_weights())
+        value[i] +=
+            (static_cast<Real>(points.weight(generators[0])) - static_cast<Real>(points.weight(generators[i + 1]))) /
+            (2 * length);
     }
   }
   Real determinant() const { return dot_of(normal[0], cross_of(normal[1], normal[2])); }
@@ -79,7 +83,7 @@ Vec3 moved(const Vec3& base, const Vector<Real>& x) {
 
 }  // namespace
 
-Circumcenter circumcenter(std::span<const Vec3> points, const std::array<Index, 4>& generators) {
+Circumcenter circumcenter(const Generators& points, const std::array<Index, 4>& generators) {
   const Vec3& base = points[static_cast<std::size_t>(generators[0])];
   const Bisectors<double> plain(points, generators);
   const double determinant = plain.determinant();

@@ -154,9 +154,9 @@ void SurfaceCrossings::measure_heights() {
   margin_ = kMargin * (size.x + size.y + size.z);
   for (std::size_t f = 0; f < n; ++f) {
     const Vec3 branch = generators_[static_cast<std::size_t>(cell_->neighbours[f])] - X_;
-    const double length = norm(branch);
+    const double length = norm(branch), distance = generators_.distance(cell_->particle, cell_->neighbours[f], length);
     for (std::size_t u = 0; u < vertices.size(); ++u)
-      heights[u * n + f] = dot(branch, vertex(static_cast<Index>(u)) - X_) / length - 0.5 * length;
+      heights[u * n + f] = dot(branch, vertex(static_cast<Index>(u)) - X_) / length - distance;
   }
 }
 

@@ -46,8 +46,7 @@ struct FaceCrossing {
 class SurfaceCrossings {
  public:
   /// Both must outlive this.
-  SurfaceCrossings(std::span<const Vec3> generators, const SurfaceIndex& index)
-      : generators_(generators), index_(index) {}
+  SurfaceCrossings(Generators generators, const SurfaceIndex& index) : generators_(generators), index_(index) {}
 
   /// Finds everything for the cell of a particle that is in the solid.
   void find(const DualCell& cell);
@@ -80,7 +79,7 @@ class SurfaceCrossings {
   }
   int place(Index u) const;
 
-  std::span<const Vec3> generators_;
+  Generators generators_;
   const SurfaceIndex& index_;
   const DualCell* cell_ = nullptr;
   Vec3 X_;

@@ -51,7 +51,7 @@ struct CutCell {
 class SurfaceCutter {
  public:
   /// All must outlive the cutter.
-  SurfaceCutter(std::span<const Vec3> generators, const SurfaceIndex& index, const SurfacePlanes& planes)
+  SurfaceCutter(Generators generators, const SurfaceIndex& index, const SurfacePlanes& planes)
       : generators_(generators), planes_(planes), lines_(generators, index, planes) {}
 
   /// Valid until the next call. Throws GeometryError when the surface is not closed there.
@@ -99,7 +99,7 @@ class SurfaceCutter {
   void add_loops(std::span<const Member> lines);
   void merge_patches();
 
-  std::span<const Vec3> generators_;
+  Generators generators_;
   const SurfacePlanes& planes_;
   SurfaceLines lines_;
   const DualCell* cell_ = nullptr;

@@ -36,18 +36,18 @@ PointGrid grid_of(std::span<const Vec3> generators, double spacing) {
   return {near, box.lower, box.upper, spacing};
 }
 
-DualCellCutter::DualCellCutter(std::span<const Vec3> generators, const PointGrid& grid)
+DualCellCutter::DualCellCutter(Generators generators, const PointGrid& grid)
     : generators_(generators),
-      magnitude_(largest_coordinate(generators.first(generators.size() - kFar))),
+      magnitude_(largest_coordinate(generators.points().first(generators.size() - kFar))),
       nearest_(grid) {}
 
 const DualCell& DualCellCutter::cut(Index particle) {
   start(particle);
-  double reach = 2.0 * farthest();
+  double reach = generators_.reach(particle, farthest());
   for (std::size_t rank = 0;; ++rank) {
     const Index neighbour = nearest_.neighbour(rank, reach);
     if (neighbour < 0) break;
-    if (clip(neighbour)) reach = 2.0 * farthest();
+    if (clip(neighbour)) reach = generators_.reach(particle, farthest());
   }
   finish();
   return cell_;
@@ -75,11 +75,12 @@ void DualCellCutter::add_face(Index neighbour) {
   const Vec3 branch = at(neighbour) - at(particle_);
   const double length = norm(branch);
   if (length <= 64.0 * std::numeric_limits<double>::epsilon() * magnitude_) {
-    const Vec3& X = at(particle_);
-    throw GeometryError(fmt::format("particles {} and {} at ({:g}, {:g}, {:g}) m coincide; leave one of them out",
-                                    particle_, neighbour, X.x, X.y, X.z));
+    throw GeometryError(fmt::format("particles {} and {} coincide; leave one of them out", generators_.named(particle_),
+                                    generators_.named(neighbour)));
   }
-  faces_.push_back({neighbour, branch / length, 0.5 * length});
+  const double distance = generators_.distance(particle_, neighbour, length);
+  if (distance < kLeastShare * length) refuse_swallowed(generators_, particle_, neighbour);
+  faces_.push_back({neighbour, branch / length, distance});
 }
 
 void DualCellCutter::add_vertex(Index i, Index j, Index k) {
@@ -102,6 +103,16 @@ bool DualCellCutter::is_cut_off(const Vertex& vertex, const Face& face) const {
   return conflicts(vertex.name, face.neighbour);
 }
 
+/// Where `other` is to the sphere through the generators of a corner, or with weights to the one orthogonal to theirs:
+/// the sign of side_of_sphere().
+int DualCellCutter::side_of_sphere_through(const DualCell::Name& name, Index other) const {
+  const auto point = [&](std::size_t i) { return at(name[i]); };
+  if (!generators_.has_weights()) return side_of_sphere(point(0), point(1), point(2), point(3), at(other));
+  const auto weighted = [&](Index g) { return WeightedPoint{at(g), generators_.weight(g)}; };
+  return side_of_power_sphere(weighted(name[0]), weighted(name[1]), weighted(name[2]), weighted(name[3]),
+                              weighted(other));
+}
+
 /// Is `other` in the sphere through the generators of a corner? If it is on it, the tiny weights decide: the higher a
 /// generator's number, the larger they lift it off the paraboloid over which Voronoi cells are the lower hull, each
 /// by far more than the one before. H. Edelsbrunner, E. P. Muecke, Simulation of simplicity, ACM Trans. Graph. 9, 1990.
@@ -109,7 +120,8 @@ bool DualCellCutter::conflicts(const DualCell::Name& name, Index other) const {
   std::array<Vec3, 4> p;
   for (std::size_t i = 0; i < 4; ++i) p[i] = at(name[i]);
   const int orientation = orient3d(p[0], p[1], p[2], p[3]);
-  const int side = orientation * side_of_sphere(p[0], p[1], p[2], p[3], at(other));
+  if (orientation == 0) return false;
+  const int side = orientation * side_of_sphere_through(name, other);
   if (side != 0) return side > 0;
   for (std::size_t i = 4; i-- > 0;) {
     if (other > name[i]) return false;

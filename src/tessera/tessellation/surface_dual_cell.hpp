@@ -6,6 +6,7 @@
 
 #include "tessera/base/index.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/tessellation/generators.hpp"
 #include "tessera/tessellation/voronoi_nearest.hpp"
 
 namespace tessera {
@@ -47,13 +48,14 @@ class DualCellCutter {
  public:
   /// The last four generators must form a tetrahedron around all the others and be far from them. Generators and their
   /// grid must outlive the cutter.
-  DualCellCutter(std::span<const Vec3> generators, const PointGrid& grid);
+  DualCellCutter(Generators generators, const PointGrid& grid);
 
-  /// The cell of a generator; valid until the next call. Throws GeometryError when it coincides with another.
+  /// The cell of a generator; valid until the next call. Throws GeometryError when it coincides with another or lies
+  /// outside its own power cell.
   const DualCell& cut(Index particle);
 
  private:
-  /// The bisector to a neighbour: normal . x = offset for x relative to the particle.
+  /// The plane to a neighbour: normal . x = offset for x relative to the particle.
   struct Face {
     Index neighbour;
     Vec3 normal;
@@ -76,12 +78,13 @@ class DualCellCutter {
   void add_face(Index neighbour);
   void add_vertex(Index i, Index j, Index k);
   bool is_cut_off(const Vertex& vertex, const Face& face) const;
+  int side_of_sphere_through(const DualCell::Name& name, Index other) const;
   bool conflicts(const DualCell::Name& name, Index other) const;
   bool clip(Index neighbour);
   double farthest() const;
   void finish();
 
-  std::span<const Vec3> generators_;
+  Generators generators_;
   double magnitude_;  // of coordinates [m]
   NearestPoints nearest_;
   Index particle_ = -1;

@@ -62,7 +62,10 @@ Vec3 SurfaceLines::place(const EdgeCrossing& crossing, const std::array<Index, 3
   const std::array<Vec3, 3> n{to_first / first, to_second / second, planes_.normal[static_cast<std::size_t>(t)]};
   const double determinant = dot(n[0], cross(n[1], n[2]));
   if (std::abs(determinant) > kSteep)
-    return base + common_point(n, {0.5 * first, 0.5 * second, dot(n[2], u0 - base)}, determinant);
+    return base + common_point(n,
+                               {generators_.distance(g[0], g[1], first), generators_.distance(g[0], g[2], second),
+                                dot(n[2], u0 - base)},
+                               determinant);
   const CellEdge& edge = crossings_.cell_edges[static_cast<std::size_t>(crossing.edge)];
   const DualCell::Corner *low = &cell_->corner(edge.from), *high = &cell_->corner(edge.to);
   if (high->name < low->name) std::swap(low, high);
@@ -73,10 +76,11 @@ Vec3 SurfaceLines::place(const EdgeCrossing& crossing, const std::array<Index, 3
 Vec3 SurfaceLines::place(const FaceCrossing& crossing) const {
   const SurfaceEdge& edge = crossings_.surface_edges[static_cast<std::size_t>(crossing.edge)];
   const Vec3 &low = surface_vertex(edge.low), &high = surface_vertex(edge.high);
-  const auto [g, h] = std::minmax({cell_->particle, neighbour(crossing.face)});
+  const Index g = std::min(cell_->particle, neighbour(crossing.face)),
+              h = std::max(cell_->particle, neighbour(crossing.face));
   const Vec3 branch = generator(h) - generator(g);
-  const double length = norm(branch);
-  const auto height = [&](const Vec3& U) { return dot(branch, U - generator(g)) / length - 0.5 * length; };
+  const double length = norm(branch), distance = generators_.distance(g, h, length);
+  const auto height = [&](const Vec3& U) { return dot(branch, U - generator(g)) / length - distance; };
   const double at_low = height(low), at_high = height(high);
   double s = 0.0;
   if (std::abs(at_low - at_high) > kSteep * norm(high - low)) {

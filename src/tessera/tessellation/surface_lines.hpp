@@ -36,7 +36,7 @@ class SurfaceLines {
   };
 
   /// All must outlive this.
-  SurfaceLines(std::span<const Vec3> generators, const SurfaceIndex& index, const SurfacePlanes& planes)
+  SurfaceLines(Generators generators, const SurfaceIndex& index, const SurfacePlanes& planes)
       : generators_(generators), index_(index), planes_(planes), crossings_(generators, index) {}
 
   /// Finds all lines for the cell of a particle in the solid. Throws GeometryError when the surface is not closed.
@@ -72,7 +72,7 @@ class SurfaceLines {
   template <class Emit>
   void join_ends(Emit&& emit);
 
-  std::span<const Vec3> generators_;
+  Generators generators_;
   const SurfaceIndex& index_;
   const SurfacePlanes& planes_;
   SurfaceCrossings crossings_;

@@ -14,7 +14,7 @@ constexpr double kLargestPart = 0.5;  // of the cell: what is cut off from the p
 
 }  // namespace
 
-SplitCells::SplitCells(std::span<const Vec3> points, std::span<const std::unique_ptr<CutCell>> cells)
+SplitCells::SplitCells(Generators points, std::span<const std::unique_ptr<CutCell>> cells)
     : points_(points), cells_(cells), owner_(cells.size()) {
   for (std::size_t a = 0; a < cells.size(); ++a) {
     if (!cells[a]) continue;
@@ -70,10 +70,10 @@ void SplitCells::report(Index cell, Index part, const char* text) const {
   const Vec3& X = points_[static_cast<std::size_t>(cell)];
   const CutCell::Part& p = cells_[static_cast<std::size_t>(cell)]->parts[static_cast<std::size_t>(part)];
   const Vec3 center = X + p.moment / p.volume;
-  throw GeometryError(fmt::format(
-      "the surface cuts {:.3g} m3 around ({:g}, {:g}, {:g}) m off from particle {} at ({:g}, {:g}, {:g}) m, to whose "
-      "Voronoi cell it belongs, {}; use a finer spacing or put particles there",
-      p.volume, center.x, center.y, center.z, cell, X.x, X.y, X.z, text));
+  throw GeometryError(
+      fmt::format("the surface cuts {:.3g} m3 around ({:g}, {:g}, {:g}) m off from particle {}, to whose "
+                  "Voronoi cell it belongs, {}; use a finer spacing or put particles there",
+                  p.volume, center.x, center.y, center.z, points_.named(cell), text));
 }
 
 void SplitCells::check_sizes() const {

@@ -13,7 +13,7 @@ class SplitCells {
  public:
   /// `cells` holds, per particle, its cell if that falls into parts, else nothing. It must outlive this. Throws
   /// GeometryError for parts of more than half a cell and for those that no face connects to a particle.
-  SplitCells(std::span<const Vec3> points, std::span<const std::unique_ptr<CutCell>> cells);
+  SplitCells(Generators points, std::span<const std::unique_ptr<CutCell>> cells);
 
   /// The particle that the part of a cell belongs to now.
   Index owner(Index cell, Index part) const;
@@ -28,7 +28,7 @@ class SplitCells {
   void check_adopted() const;
   [[noreturn]] void report(Index cell, Index part, const char* text) const;
 
-  std::span<const Vec3> points_;
+  Generators points_;
   std::span<const std::unique_ptr<CutCell>> cells_;
   std::vector<std::vector<Index>> owner_;  // per cell, per part; -1 while unknown
 };

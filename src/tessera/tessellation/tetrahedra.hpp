@@ -33,9 +33,10 @@ enum class Tetrahedralization { automatic, delaunay, split };
 bool has_delaunay();
 
 /// Fills `solid` with tetrahedra on the vertices `points`. A regular axis-parallel lattice gives the same tetrahedra
-/// both ways. Throws GeometryError when the tetrahedra do not fill the solid (its volume is compared), when a split
-/// lattice would invert one (names it), when points are left without a tetrahedron, or when the way asked for is not
-/// available.
+/// both ways. Points with radii get the regular triangulation, the dual of their power cells, which needs CGAL; an
+/// empty power cell is an error that names the particle. Throws GeometryError when the tetrahedra do not fill the solid
+/// (its volume is compared), when a split lattice would invert one (names it), when points are left without a
+/// tetrahedron, or when the way asked for is not available.
 TetrahedralMesh tetrahedralize(const PointSet& points, const Solid& solid, Tetrahedralization how);
 
 /// Reads a Gmsh .msh (2.2 and 4.1, ASCII and binary) or VTK .vtu (ASCII, base64, appended; zlib) file.

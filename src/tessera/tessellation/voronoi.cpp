@@ -108,11 +108,7 @@ void add_part(CellSums& sums, const ConvexPolyhedron& part, const Vec3& X, Momen
   }
 }
 
-/// "particle 7 at (1, 2, 3) m".
-std::string named(std::span<const Vec3> points, Index a) {
-  const Vec3& X = points[static_cast<std::size_t>(a)];
-  return fmt::format("particle {} at ({:g}, {:g}, {:g}) m", a, X.x, X.y, X.z);
-}
+std::string named(const Generators& points, Index a) { return "particle " + points.named(a); }
 
 /// Room for the interior faces of a cell that it shares with higher particles, on average.
 constexpr std::size_t kExpectedFaces = 8;
@@ -145,8 +141,11 @@ struct Workspace {
 
 class Assembly {
  public:
-  Assembly(std::span<const Vec3> points, const Solid& solid, Moments moments)
-      : points_(points), moments_(moments), grid_(VoronoiCutter::grid_of(points, solid)), workspaces_([this, &solid] {
+  Assembly(const Generators& points, const Solid& solid, Moments moments)
+      : points_(points),
+        moments_(moments),
+        grid_(VoronoiCutter::grid_of(points.points(), solid)),
+        workspaces_([this, &solid] {
           return std::unique_ptr<Workspace>(new Workspace{VoronoiCutter(points_, solid, grid_), {}});
         }) {}
 
@@ -217,7 +216,8 @@ class Assembly {
       if (is_side)
         out.boundary.push_back({a, VoronoiCutter::side_of(face.tag), face.area, point(a) + face.centroid()});
       else if (face.tag > a)
-        out.interior.push_back({a, face.tag, face.area, point(a) + face.centroid()});
+        out.interior.push_back(
+            {a, face.tag, face.area, point(a) + face.centroid(), true, cut_of(points_, a, face.tag)});
       if (with_faces() && is_side) out.boundary_second_moment.push_back(face.second);
       if (with_faces() && face.tag > a) out.interior_second_moment.push_back(face.second);
     }
@@ -273,7 +273,7 @@ class Assembly {
     volume = balance.volume;
   }
 
-  std::span<const Vec3> points_;
+  Generators points_;
   Moments moments_;
   PointGrid grid_;
   parallel::Workspaces<Workspace> workspaces_;
@@ -282,14 +282,14 @@ class Assembly {
 
 }  // namespace
 
-Cells voronoi_cells(std::span<const Vec3> points, const Solid& solid, Moments moments) {
-  if (points.empty()) throw GeometryError("there are no particles to make Voronoi cells of");
+Cells voronoi_cells(const Generators& points, const Solid& solid, Moments moments) {
+  if (points.size() == 0) throw GeometryError("there are no particles to make Voronoi cells of");
   return Assembly(points, solid, moments).assemble();
 }
 
-std::vector<Polyhedron> voronoi_polyhedra(std::span<const Vec3> points, const Solid& solid) {
-  if (points.empty()) throw GeometryError("there are no particles to make Voronoi cells of");
-  const PointGrid grid = VoronoiCutter::grid_of(points, solid);
+std::vector<Polyhedron> voronoi_polyhedra(const Generators& points, const Solid& solid) {
+  if (points.size() == 0) throw GeometryError("there are no particles to make Voronoi cells of");
+  const PointGrid grid = VoronoiCutter::grid_of(points.points(), solid);
   VoronoiCutter cutter(points, solid, grid);
   std::vector<Polyhedron> polyhedra;
   for (Index a = 0; a < static_cast<Index>(points.size()); ++a)

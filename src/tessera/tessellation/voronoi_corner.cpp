@@ -38,8 +38,9 @@ void Corner::add(Index generator) { insert_sorted(generators_, generator_count_,
 
 void Corner::add(const Plane& wall) { insert_sorted(walls_, wall_count_, forward(wall), comes_before); }
 
-Vec3 corner_position(std::span<const Vec3> points, const Corner& corner, const Vec3& estimate) {
-  const Vec3& base = points[static_cast<std::size_t>(corner.generators()[0])];
+Vec3 corner_position(const Generators& points, const Corner& corner, const Vec3& estimate) {
+  const Index first = corner.generators()[0];
+  const Vec3& base = points[static_cast<std::size_t>(first)];
   System system;
   int row = 0;
   const auto add_row = [&](const Vec3& normal, double value) {
@@ -48,7 +49,7 @@ Vec3 corner_position(std::span<const Vec3> points, const Corner& corner, const V
   };
   for (const Index generator : corner.generators().subspan(1)) {
     const Vec3 branch = points[static_cast<std::size_t>(generator)] - base;
-    add_row(branch, 0.5 * norm2(branch));
+    add_row(branch, points.offset(first, generator, norm2(branch)));
   }
   for (const Plane& wall : corner.walls()) add_row(wall.normal, -wall.height(base));
   const double determinant = dot(system.normal[0], cross(system.normal[1], system.normal[2]));

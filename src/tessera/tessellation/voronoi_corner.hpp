@@ -5,6 +5,7 @@
 
 #include "tessera/base/index.hpp"
 #include "tessera/geometry/solid.hpp"
+#include "tessera/tessellation/generators.hpp"
 
 namespace tessera {
 
@@ -29,6 +30,6 @@ class Corner {
 /// The position of a corner [m]. It depends on the corner alone, so all cells that meet there get the same bits; that
 /// is what makes cells close to round-off even where the planes are nearly parallel. When they are parallel to within
 /// round-off it is `estimate`.
-Vec3 corner_position(std::span<const Vec3> points, const Corner& corner, const Vec3& estimate);
+Vec3 corner_position(const Generators& points, const Corner& corner, const Vec3& estimate);
 
 }  // namespace tessera

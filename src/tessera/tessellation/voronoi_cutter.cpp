@@ -89,20 +89,15 @@ double farthest_vertex(const ConvexPolyhedron& part, const Vec3& X) {
   return std::sqrt(largest);
 }
 
-std::string named(std::span<const Vec3> points, Index a) {
-  const Vec3& X = points[static_cast<std::size_t>(a)];
-  return fmt::format("{} at ({:g}, {:g}, {:g}) m", a, X.x, X.y, X.z);
-}
-
 }  // namespace
 
-VoronoiCutter::VoronoiCutter(std::span<const Vec3> points, const Solid& solid, const PointGrid& grid)
+VoronoiCutter::VoronoiCutter(Generators points, const Solid& solid, const PointGrid& grid)
     : points_(points),
       solid_(solid),
       tolerance_(roundoff(solid)),
       clipper_(tolerance_),
       nearest_(grid),
-      spacing_(mean_spacing(points, solid)) {
+      spacing_(mean_spacing(points.points(), solid)) {
   for (const ConvexPiece& piece : solid.pieces) {
     pieces_.push_back(polyhedron_of(piece, clipper_));
     place_on_walls(piece, pieces_.back());
@@ -161,7 +156,7 @@ std::size_t VoronoiCutter::piece_around(Index particle) const {
     if (std::all_of(walls.begin(), walls.end(), [&](const auto& wall) { return wall.plane.height(X) <= tolerance_; }))
       return p;
   }
-  throw GeometryError("particle " + named(points_, particle) + " lies outside the solid");
+  throw GeometryError("particle " + points_.named(particle) + " lies outside the solid");
 }
 
 Plane VoronoiCutter::bisector(Index particle, Index neighbour) const {
@@ -169,16 +164,18 @@ Plane VoronoiCutter::bisector(Index particle, Index neighbour) const {
   const Vec3 branch = points_[static_cast<std::size_t>(neighbour)] - X;
   const double length = norm(branch);
   if (length <= tolerance_)
-    throw GeometryError("particles " + named(points_, particle) + " and " + named(points_, neighbour) + " coincide");
+    throw GeometryError("particles " + points_.named(particle) + " and " + points_.named(neighbour) + " coincide");
+  const double distance = points_.distance(particle, neighbour, length);
+  if (distance < kLeastShare * length) refuse_swallowed(points_, particle, neighbour);
   const Vec3 normal = branch / length;
-  return {normal, dot(normal, X) + 0.5 * length};
+  return {normal, dot(normal, X) + distance};
 }
 
 /// Where a bisector lies on a face of the piece, the face goes to the neighbour if it is a wall between pieces, for
 /// the neighbour's cell has that face too, from the other side. A face that bounds the solid stays as it is.
 void VoronoiCutter::cut_by_neighbours(Index particle, std::size_t piece, double margin, ConvexPolyhedron& part) {
   const Vec3& X = points_[static_cast<std::size_t>(particle)];
-  const auto reach_of = [&] { return 2.0 * (farthest_vertex(part, X) + margin + tolerance_); };
+  const auto reach_of = [&] { return points_.reach(particle, farthest_vertex(part, X) + margin + tolerance_); };
   double reach = reach_of();
   for (std::size_t rank = 0;; ++rank) {
     const Index neighbour = nearest_.neighbour(rank, reach);

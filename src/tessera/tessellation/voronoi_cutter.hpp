@@ -6,12 +6,13 @@
 
 #include "tessera/geometry/solid.hpp"
 #include "tessera/tessellation/clip.hpp"
+#include "tessera/tessellation/generators.hpp"
 #include "tessera/tessellation/voronoi_nearest.hpp"
 #include "tessera/tessellation/voronoi_simple_cell.hpp"
 
 namespace tessera {
 
-/// Makes one Voronoi cell after the other. Not thread-safe: one cutter belongs to one thread.
+/// Makes one Voronoi or power cell after the other. Not thread-safe: one cutter belongs to one thread.
 ///
 /// First every convex piece of the solid that the cell can reach is cut by the bisectors to ever farther particles,
 /// until none can reach what is left. That is all for cells within one piece. Where a wall between two pieces goes
@@ -30,11 +31,11 @@ class VoronoiCutter {
   static constexpr Index side_of(Index tag) { return -2 - tag; }
 
   /// All must outlive the cutter. The grid is that of grid_of(points, solid).
-  VoronoiCutter(std::span<const Vec3> points, const Solid& solid, const PointGrid& grid);
+  VoronoiCutter(Generators points, const Solid& solid, const PointGrid& grid);
   static PointGrid grid_of(std::span<const Vec3> points, const Solid& solid);
 
   /// The parts of a cell, one for each piece of the solid that it meets; valid until the next call. Throws
-  /// GeometryError when the particle is outside the solid or coincides with another.
+  /// GeometryError when the particle is outside the solid or its own power cell, or coincides with another.
   std::span<const ConvexPolyhedron> cut(Index particle);
 
  private:
@@ -62,7 +63,7 @@ class VoronoiCutter {
     int count = 0;
   };
 
-  std::span<const Vec3> points_;
+  Generators points_;
   const Solid& solid_;
   double tolerance_;
   Clipper clipper_;

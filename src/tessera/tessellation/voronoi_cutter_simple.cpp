@@ -40,7 +40,7 @@ bool VoronoiCutter::clip_by_walls(const ConvexPiece& piece, const Vec3& X) {
 
 bool VoronoiCutter::clip_by_neighbours(Index particle) {
   const Vec3& X = points_[static_cast<std::size_t>(particle)];
-  const auto reach_of = [&] { return 2.0 * (std::sqrt(simple_.radius2()) + tolerance_); };
+  const auto reach_of = [&] { return points_.reach(particle, std::sqrt(simple_.radius2()) + tolerance_); };
   double reach = reach_of();
   for (std::size_t rank = 0;; ++rank) {
     const Index neighbour = nearest_.neighbour(rank, reach);
@@ -49,7 +49,9 @@ bool VoronoiCutter::clip_by_neighbours(Index particle) {
     const double length2 = norm2(branch);
     if (length2 <= tolerance_ * tolerance_) return false;
     const double margin = std::max(kMargin * std::sqrt(length2), kMarginTolerances * tolerance_);
-    const SimpleCell::Outcome outcome = simple_.clip(branch, 0.5 * length2, margin, neighbour);
+    const double offset = points_.offset(particle, neighbour, length2);
+    if (offset < kLeastShare * length2) refuse_swallowed(points_, particle, neighbour);
+    const SimpleCell::Outcome outcome = simple_.clip(branch, offset, margin, neighbour);
     if (outcome == SimpleCell::Outcome::in_doubt) return false;
     if (outcome == SimpleCell::Outcome::cut) reach = reach_of();
   }
