@@ -70,6 +70,7 @@ std::string to_json(const Summary& s) {
   json["errors"] = errors(s.errors);
   json["identities"] = Json::object();
   for (const auto& [name, violation] : s.identities) json["identities"][name] = violation;
+  json["quality"] = to_json(s.quality);
   json["step_control"] = {{"evaluations", s.step_control.evaluations}, {"limit", s.step_control.limit}};
   if (s.integration)
     json["integration"] = {{"kind", s.integration->kind}, {"unresolved_cells", s.integration->unresolved_cells}};

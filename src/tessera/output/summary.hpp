@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tessera/output/displacement_error.hpp"
+#include "tessera/output/quality.hpp"
 #include "tessera/output/snapshot.hpp"
 
 namespace tessera {
@@ -63,6 +64,7 @@ struct Summary {
   Momentum momentum_change;                         // since the start
   std::map<std::string, DisplacementError> errors;  // by name of the reference
   std::map<std::string, double> identities;         // largest violation of each, relative
+  Quality quality;                                  // of particles and cells
   StepControlSummary step_control;
   std::optional<IntegrationSummary> integration;   // the key is left out without it
   std::optional<MassScalingSummary> mass_scaling;  // the key is left out without it

@@ -40,6 +40,7 @@ struct Findings {
   std::int64_t memory = 0;
   Identities identities;
   std::vector<SideRow> sides;
+  Quality quality;
   std::vector<std::string> notes;
 };
 
@@ -57,6 +58,7 @@ Findings examine(const Case& c) {
   f.shortest = model.system.shortest_length;
   f.identities = model.identities;
   f.sides = model.sides;
+  f.quality = model.quality;
   f.notes = model.notes;
   // The control of a copy that is never refused: check also tells the limit to those whose fixed step is too long.
   TimeSpec spec = c.time;
@@ -86,6 +88,7 @@ std::string to_text(const Findings& f) {
       "violation)\n",
       f.setup_seconds, duration_text(f.run_seconds), static_cast<double>(f.memory) / 1e6);
   for (const auto& [name, value] : f.identities) text += fmt::format("  {:<14} {:.1e}\n", name, value);
+  text += to_text(f.quality);
   text += to_text(f.sides);
   for (const std::string& note : f.notes) text += note + "\n";
   return text;
@@ -120,6 +123,7 @@ std::string to_json(const Findings& f) {
   j["identities"] = f.identities;
   j["sides"] = nlohmann::ordered_json::array();
   for (const SideRow& row : f.sides) j["sides"].push_back(to_json(row));
+  j["quality"] = to_json(f.quality);
   j["notes"] = f.notes;
   return j.dump(2) + "\n";
 }

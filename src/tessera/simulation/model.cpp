@@ -6,6 +6,7 @@
 
 #include "tessera/simulation/body_builder.hpp"
 #include "tessera/simulation/overlap.hpp"
+#include "tessera/simulation/quality_survey.hpp"
 
 namespace tessera {
 
@@ -113,6 +114,9 @@ Model build_model(const Case& c) {
   for (std::size_t i = 0; i < c.bodies.size(); ++i) bodies.push_back(build_body(c, c.bodies[i], model.conditions[i]));
   refuse_overlap(c.bodies, bodies);
 
+  QualitySurvey survey;
+  for (const BuiltBody& b : bodies) survey.add(b);
+  model.quality = survey.quality();
   Discretization all;
   LoadParts parts;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

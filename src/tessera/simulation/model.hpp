@@ -9,6 +9,7 @@
 #include "tessera/loads/surface.hpp"
 #include "tessera/mechanics/system.hpp"
 #include "tessera/output/fields.hpp"
+#include "tessera/output/quality.hpp"
 #include "tessera/simulation/case.hpp"
 #include "tessera/simulation/side_table.hpp"
 
@@ -34,6 +35,7 @@ struct Model {
   std::vector<Index> body_of, material_of;
   std::vector<Vec3> initial_displacement, initial_velocity;  // [m], [m/s]
   Identities identities;
+  Quality quality;
   Index boundary_faces = 0;
   std::vector<SideRow> sides;         // of all bodies
   std::vector<std::string> notes;     // lines for the user about what was built

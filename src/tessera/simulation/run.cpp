@@ -229,6 +229,7 @@ void Run::summarise(const std::string& status, const std::string& message) {
     for (const ReferenceSpec& r : case_.references) s.errors[r.name] = displacement_error(snapshot, r);
   }
   s.identities = model_->identities;
+  s.quality = model_->quality;
   s.step_control = {engine_->step_control().evaluations(), engine_->step_control().limit()};
   if (const auto& gradients = model_->system.gradients) s.integration = {"cell", gradients->unresolved};
   if (engine_->mass_scaling()) s.mass_scaling = mass_scaling_summary();

@@ -36,6 +36,13 @@ TEST_F(PointFile, ReadsAnyColumnOrder) {
   EXPECT_FALSE(set.lattice);
 }
 
+TEST_F(PointFile, ReadsRadii) {
+  const PointSet set = read("x,radius,y,z\n0.1,0.05,0.2,0.3\n0.4,0,0.5,0.6\n");
+  EXPECT_EQ(set.points[1], (Vec3{0.4, 0.5, 0.6}));
+  EXPECT_EQ(set.radius, (std::vector<double>{0.05, 0.0}));
+  EXPECT_TRUE(read("x,y,z\n0.1,0.2,0.3\n").radius.empty());
+}
+
 TEST_F(PointFile, ReadsWindowsFiles) {
   const PointSet set = read("\xef\xbb\xbfx,y,z\r\n0.1,0.2,0.3\r\n\r\n0.4,0.5,0.6");
   ASSERT_EQ(set.points.size(), 2U);
@@ -50,7 +57,9 @@ TEST_F(PointFile, MalformedFilesNameLineAndColumn) {
   expect_contains(error<InputError>("x,y,z\n0.1,0.2m,0.3\n"), ":2:5: '0.2m'");
   expect_contains(error<InputError>("x,y,z\n0.1,0.2\n"), ":2:1: found 2 fields, expected 3");
   expect_contains(error<InputError>("0.1,0.2,0.3\n"), ":1:1: unknown column '0.1'");
-  expect_contains(error<InputError>("x,y,z,radius\n"), ":1:7: unknown column 'radius'");
+  expect_contains(error<InputError>("x,y,z,mass\n"), ":1:7: unknown column 'mass'");
+  expect_contains(error<InputError>("x,y,z,radius\n0.1,0.2,0.3,-1\n"), ":2:13: the radius -1 is negative");
+  expect_contains(error<InputError>("x,y,radius\n"), ":1:1: the header must name the three columns");
   expect_contains(error<InputError>("x,y,x\n"), ":1:5: column 'x' appears twice");
   expect_contains(error<InputError>("x,y\n"), ":1:1: the header must name the three columns");
   expect_contains(error<InputError>(""), "the file is empty");

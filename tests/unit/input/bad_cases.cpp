@@ -193,6 +193,8 @@ INSTANTIATE_TEST_SUITE_P(
             "expected a formula in X, Y, Z"},
         Bad{lattice, "{ arrangement = \"relaxed\", count = 10, iterations = 0 }", "8:65", "body.0.particles.iterations",
             "allowed: >= 1"},
+        Bad{lattice, "{ file = \"a.csv\", radius = \"t\" }", "8:40", "body.0.particles.radius",
+            "expected a formula in X, Y, Z"},
         Bad{lattice, "{ count = 10, spacing = 1 }", "8:27", "body.0.particles.spacing",
             "expected exactly one of counts, spacing, count"},
         Bad{lattice, "{ mesh = \"a.msh\" }", "8:22", "body.0.particles.mesh",

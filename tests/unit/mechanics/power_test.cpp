@@ -83,7 +83,7 @@ double largest(const std::vector<Double4>& forces) {
 
 TEST(PowerCells, KeepTheIdentities) {
   for (Body& b : bodies()) {
-    EXPECT_GT(b.most_unequal(), 0.15) << b.name;
+    EXPECT_GT(b.most_unequal(), 0.1) << b.name;
     for (const Constrain& projection : {Constrain(nothing), Constrain(everything)}) {
       constrain(b, projection);
       const Discretization d = discretize(Method::consistent, b.body);
