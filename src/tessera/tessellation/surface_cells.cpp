@@ -342,8 +342,7 @@ class SurfaceAssembly {
 
 }  // namespace
 
-SurfaceCells surface_cells(const Generators& points, const SurfaceIndex& index, Moments moments,
-                           Pictures pictures) {
+SurfaceCells surface_cells(const Generators& points, const SurfaceIndex& index, Moments moments, Pictures pictures) {
   if (points.size() == 0) throw GeometryError("there are no particles to make Voronoi cells of");
   return SurfaceAssembly(points, index, moments, pictures).assemble();
 }
