@@ -3,6 +3,7 @@
 #   make demo                     set up, build, run the punch example, say what to open
 #   make test                     set up, build, run all tests, then the same for the preset minimal
 #   make results                  write docs/results.md, the papers' numbers beside ours, from what the last `make test` measured
+#   make accuracy                 write the tables and plots of docs/accuracy.md; hours (ACCURACY_RUNS keeps the runs)
 #   make check                    warnings as errors, unit tests with assertions, lint
 #   make format                   clang-format in place
 #   make clean                    remove everything that was built, and the demo's result
@@ -10,7 +11,7 @@ PRESET ?= release
 JOBS ?= $(shell nproc)
 export JOBS
 
-.PHONY: build setup demo test results check format clean
+.PHONY: build setup demo test results accuracy check format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -30,6 +31,10 @@ test:
 
 results:
 	/usr/bin/python3 scripts/results_table.py build/release/verification docs/results.md
+
+ACCURACY_RUNS ?= build/accuracy
+accuracy:
+	/usr/bin/python3 scripts/accuracy/study.py $(ACCURACY_RUNS)
 
 check:
 	$(MAKE) --no-print-directory build PRESET=dev

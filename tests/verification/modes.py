@@ -48,18 +48,24 @@ def frequency(mode):
     return math.copysign(math.sqrt(abs(mode["omega2"])), mode["omega2"])
 
 
-def by_name(found, condition):
+def with_motion_inside(mode):
+    """Angular frequency if the cells' inner motion had its inertia, to first order [rad/s]."""
+    return frequency(mode) / math.sqrt(1.0 + mode["inside"])
+
+
+def by_name(found, condition, measure=frequency):
     """First and second bending (mean of the two directions) and torsion of the beam [rad/s]."""
     elastic = found["modes"][RIGID if condition == "free" else 0:]
-    torsion = [frequency(m) for m in elastic if m["around"] > 0.8]
-    bending = [frequency(m) for m in elastic if m["around"] <= 0.8 and m["along"] < 0.8]
+    torsion = [measure(m) for m in elastic if m["around"] > 0.8]
+    bending = [measure(m) for m in elastic if m["around"] <= 0.8 and m["along"] < 0.8]
     return {"bending": (bending[0] + bending[1]) / 2.0, "torsion": torsion[0],
             "second bending": (bending[2] + bending[3]) / 2.0}
 
 
-def errors(found, condition):
+def errors(found, condition, measure=frequency):
     """Relative errors of the angular frequencies."""
-    return {name: ours / REFERENCE[condition][name] - 1.0 for name, ours in by_name(found, condition).items()}
+    ours = by_name(found, condition, measure)
+    return {name: ours[name] / reference - 1.0 for name, reference in REFERENCE[condition].items()}
 
 
 def relative_step(found):

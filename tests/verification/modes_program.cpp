@@ -147,6 +147,24 @@ Vec3 long_axis(const System& s) {
   return axis;
 }
 
+/// Kinetic energy of the motion inside cells, which masses at points leave out, as a share of theirs: cells are taken
+/// as cubes of their volume that move with F_a.
+double motion_inside(const System& s, const std::vector<Index>& number, const VectorXd& v) {
+  State state = reference_state(s);
+  const double h = difference * s.shortest_length;
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] >= 0) state.x[i / 3][static_cast<int>(i % 3)] += h * v(number[i]) / std::sqrt(s.mass[i / 3]);
+  Forces forces(s);
+  const std::vector<Vec3> walls = resting_walls(s);
+  forces.evaluate(state, {walls, {}, {}}, 0.0);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < s.d.X.size(); ++a) {
+    const Mat3 gradient = (1.0 / h) * (to_mat3(forces.deformation_gradient()[a]) - identity());
+    for (double g : gradient.m) sum += s.mass[a] * std::pow(s.d.volume[a], 2.0 / 3.0) / 12.0 * g * g;
+  }
+  return sum;
+}
+
 /// Shares of the kinetic energy along the long axis and around it: near one for stretching and for torsion.
 nlohmann::json describe(const System& s, const std::vector<Index>& number, const VectorXd& v, double omega2) {
   const Vec3 axis = long_axis(s), centre = centre_of(s);
@@ -158,7 +176,7 @@ nlohmann::json describe(const System& s, const std::vector<Index>& number, const
     along += dot(w, axis) * dot(w, axis);
     if (norm(turn) > 0.0) around += dot(w, turn) * dot(w, turn) / dot(turn, turn);
   }
-  return {{"omega2", omega2}, {"along", along}, {"around", around}};
+  return {{"omega2", omega2}, {"along", along}, {"around", around}, {"inside", motion_inside(s, number, v)}};
 }
 
 nlohmann::json report(const System& s, Index wanted) {

@@ -10,6 +10,7 @@ import math
 import pathlib
 import unittest
 
+import modes
 import runs
 
 REFERENCE = runs.read_csv(pathlib.Path(__file__).resolve().parents[1] / "data/reference/cantilever.csv")[0]
@@ -17,6 +18,8 @@ CASE = "cantilever/cantilever.toml"
 CONSERVING = ("delaunay", "consistent", "variational")
 VARIANTS = [(formulation, jitter) for formulation in CONSERVING for jitter in (0.0, 0.2)]
 BOUNDS = {"delaunay": 0.022, "consistent": 0.042, "variational": 0.06}  # at 8 per metre
+# Largest errors of the path that are allowed to other integrations, regular and with 20% jitter.
+INTEGRATED = {("delaunay", "cell", 8): (0.022, 0.006), ("consistent", "cell", 8): (0.006, 0.022)}
 CELL_CENTRES = {4: "in8", 8: "in16", 16: "in32"}
 
 
@@ -32,6 +35,14 @@ def settings(formulation, per_metre, jitter, end=1.0):
 @functools.cache
 def result(formulation, per_metre, jitter):
     return runs.run(CASE, settings(formulation, per_metre, jitter))
+
+
+@functools.cache
+def integrated_error(formulation, integration, per_metre, jitter):
+    """Error of the path, with the default step."""
+    more = modes.method(formulation, integration) | {"time.step": "auto-spectral", "time.safety": 0.8}
+    history = runs.run(CASE, settings(formulation, per_metre, jitter) | more).history
+    return path_error(history, formulation, per_metre)
 
 
 def point(formulation, per_metre):
@@ -146,8 +157,19 @@ class Cantilever(unittest.TestCase):
         self.assertGreater(stopped, 0.3)
         self.assertLess(stopped, 1.0)
 
+    def test_integrations(self):
+        for method, bounds in INTEGRATED.items():
+            for jitter, bound in zip((0.0, 0.2), bounds):
+                with self.subTest(method=method, jitter=jitter):
+                    self.assertLess(integrated_error(*method, jitter), bound)
+
     def test_record(self):
         rows = []
+        for (formulation, integration, n), bounds in INTEGRATED.items():
+            for jitter, bound in zip((0.0, 0.2), bounds):
+                error = integrated_error(formulation, integration, n, jitter)
+                name = f"{formulation}, {integration}, {n} per metre, jitter {jitter:g}: error of the path"
+                rows.append((name, "ours", None, error, bound))
         for n in (2, 4, 8):
             for formulation, jitter in VARIANTS:
                 h = result(formulation, n, jitter).history

@@ -10,9 +10,12 @@ import runs
 BEAM_BOUNDS = {
     ("delaunay", "nodal"): ((0.022, 0.016, 0.002), (0.031, 0.024, 0.013)),
     ("consistent", "nodal"): ((0.028, 0.032, 0.028), (0.041, 0.016, 0.043)),
+    ("delaunay", "cell"): ((0.007, 0.017, 0.030), (0.004, 0.008, 0.017)),
+    ("consistent", "cell"): ((0.007, 0.080, 0.008), (0.008, 0.065, 0.009)),
     ("variational", "nodal"): ((0.028, 0.032, 0.028), (0.064, 0.015, 0.065)),
 }
-POTENTIALS = [("delaunay", "nodal"), ("consistent", "nodal"), ("variational", "nodal")]
+POTENTIALS = [("delaunay", "nodal"), ("consistent", "nodal"), ("variational", "nodal"), ("delaunay", "cell"),
+              ("consistent", "cell"), ("variational", "cell")]
 CUBE = "spinning-cube/spinning-cube.toml"
 ROUND_OFF = 1e-4  # frequency of a zero mode over the highest
 

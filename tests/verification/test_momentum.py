@@ -10,22 +10,20 @@ import functools
 import math
 import unittest
 
+import modes
 import runs
 
 MASS = {"free-beam": 6600.0, "l-block": 117e3, "spinning-cube": 1000.0}
 LOADED_UNTIL = {"free-beam": 0.0, "l-block": 5.0, "spinning-cube": 0.0}
 CONSERVING = ("delaunay", "consistent", "variational")
+INTEGRATED = (("delaunay", "cell"), ("consistent", "cell"), ("variational", "cell"))
 MOMENTUM_BOUND = 1e-12
 ENERGY_BOUND = 1e-3
 
 
 @functools.cache
-def history(case, formulation, jitter=0.2, safety=0.3):
-    settings = {"body.0.particles.jitter": jitter, "time.safety": safety}
-    if formulation == "delaunay":
-        settings["method.formulation"] = "delaunay"
-    else:
-        settings |= {"method.formulation": "voronoi", "method.boundary": formulation}
+def history(case, formulation, jitter=0.2, safety=0.3, integration="nodal"):
+    settings = {"body.0.particles.jitter": jitter, "time.safety": safety} | modes.method(formulation, integration)
     return runs.run(f"{case}/{case}.toml", settings).history
 
 
@@ -80,6 +78,14 @@ class FreeBodies:
                     self.assertLess(angular_change(self.case, h), MOMENTUM_BOUND)
                     self.assertLess(energy_change(self.case, h), ENERGY_BOUND)
                     self.assertLess(ledger_error(h), ENERGY_BOUND)
+
+    def test_momenta_with_other_integrations(self):
+        for formulation, integration in INTEGRATED:
+            with self.subTest(formulation=formulation, integration=integration):
+                h = history(self.case, formulation, integration=integration)
+                self.assertLess(linear_change(self.case, h), MOMENTUM_BOUND)
+                self.assertLess(angular_change(self.case, h), MOMENTUM_BOUND)
+                self.assertLess(energy_change(self.case, h), ENERGY_BOUND)
 
     def test_energy_error_falls_with_the_square_of_the_step(self):
         for formulation in CONSERVING:
