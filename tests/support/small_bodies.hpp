@@ -21,7 +21,7 @@ namespace tessera::test {
 enum class Method { delaunay, consistent, variational, quasi_static };
 
 /// Where the energy of a cell is taken.
-enum class Integration { nodal, cell };
+enum class Integration { nodal, cell, second_order };
 
 inline std::string name_of(Method m) {
   switch (m) {
@@ -37,7 +37,17 @@ inline std::string name_of(Method m) {
   return "";
 }
 
-inline std::string name_of(Integration i) { return i == Integration::cell ? "cell" : "nodal"; }
+inline std::string name_of(Integration i) {
+  switch (i) {
+    case Integration::nodal:
+      return "nodal";
+    case Integration::cell:
+      return "cell";
+    case Integration::second_order:
+      return "second_order";
+  }
+  return "";
+}
 
 /// What tests go through.
 struct Kind {
@@ -89,15 +99,16 @@ inline VoronoiBody voronoi_body(const Solid& solid, std::array<int, 3> counts, d
                                 const Constrain& constrain) {
   VoronoiBody body;
   body.X = lattice(solid, counts, jitter, seed, Placement::cell_centres).points;
-  body.cells = voronoi_cells(body.X, solid, Moments::second_of_cells);
+  body.cells = voronoi_cells(body.X, solid, Moments::second_of_faces);
   for (const BoundaryFace& f : body.cells.boundary) body.D.push_back(constrain(f.centroid, normalized(f.area)));
   return body;
 }
 
 inline Discretization discretize(Method method, const VoronoiBody& body, Integration integration = Integration::nodal) {
+  const FaceOrder order = integration == Integration::second_order ? FaceOrder::quadratic : FaceOrder::linear;
   Discretization d =
       method == Method::consistent
-          ? discretize_consistent(body.X, body.cells, body.D)
+          ? discretize_consistent(body.X, body.cells, body.D, order)
           : discretize_ghosts(body.X, body.cells, body.D,
                               method == Method::variational ? GhostForce::variational : GhostForce::quasi_static);
   if (integration == Integration::cell) d.measure = measure_of_cells(body.cells);

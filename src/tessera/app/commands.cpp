@@ -91,6 +91,9 @@ void execute(const BenchCommand& command) {
   if (!command.formulation.empty())
     options.formulation = command.formulation == "delaunay" ? Formulation::delaunay : Formulation::voronoi;
   if (command.integration == "cell") options.integration = Integration::cell;
+  if (command.integration == "second-order") options.integration = Integration::second_order;
+  if (options.integration == Integration::second_order && options.formulation == Formulation::delaunay)
+    throw UsageError("--integration second-order needs --formulation voronoi");
   if (command.accuracy) {
     options.parts = BenchParts::accuracy;
   } else if (options.particles || options.threads) {

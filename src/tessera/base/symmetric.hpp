@@ -46,6 +46,11 @@ constexpr Symmetric3 symmetric_product(const Vec3& u, const Vec3& v) {
 
 constexpr double trace(const Symmetric3& a) { return a.xx + a.yy + a.zz; }
 
+/// The double contraction a : b = a_ij b_ij.
+constexpr double contract(const Symmetric3& a, const Symmetric3& b) {
+  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2.0 * (a.xy * b.xy + a.xz * b.xz + a.yz * b.yz);
+}
+
 constexpr Mat3 to_mat3(const Symmetric3& a) { return {{a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz}}; }
 
 }  // namespace tessera

@@ -40,7 +40,7 @@ std::optional<TimeToError> time_to_error(std::span<const AccuracyRow> rows, doub
 AccuracyForTime measure_accuracy(Formulation formulation, Integration integration) {
   AccuracyForTime result;
   result.formulation = formulation == Formulation::delaunay ? "delaunay" : "voronoi";
-  result.integration = integration == Integration::cell ? "cell" : "nodal";
+  result.integration = name_of(integration);
   result.threads = parallel::threads();
   for (const int per_metre : {4, 8, 16}) {
     if (per_metre == 16 && result.rows.back().error <= wanted_error) break;

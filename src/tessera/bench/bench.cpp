@@ -66,6 +66,11 @@ Material bench_material() {
   return m;
 }
 
+Moments moments_for(Integration integration) {
+  if (integration == Integration::nodal) return Moments::first;
+  return integration == Integration::cell ? Moments::second_of_cells : Moments::second_of_faces;
+}
+
 /// A unit cube with about `particles` particles.
 System build(Index particles, const MethodSpec& method, std::map<std::string, double>& stages) {
   Shape shape;
@@ -76,6 +81,7 @@ System build(Index particles, const MethodSpec& method, std::map<std::string, do
   lattice.counts = std::array<int, 3>{n, n, n};
   lattice.jitter = 0.25;
   const bool delaunay = method.formulation == Formulation::delaunay, by_cells = method.integration == Integration::cell;
+  const bool curved = method.integration == Integration::second_order;
 
   PointSet points;
   std::vector<Vec3> X;
@@ -93,11 +99,10 @@ System build(Index particles, const MethodSpec& method, std::map<std::string, do
     });
   } else {
     Cells cells;
-    stages["cells"] =
-        seconds([&] { cells = voronoi_cells(X, solid, by_cells ? Moments::second_of_cells : Moments::first); });
+    stages["cells"] = seconds([&] { cells = voronoi_cells(X, solid, moments_for(method.integration)); });
     const std::vector<Mat3> D(cells.boundary.size());
     stages["bonds"] = seconds([&] {
-      d = discretize_consistent(X, cells, D);
+      d = discretize_consistent(X, cells, D, curved ? FaceOrder::quadratic : FaceOrder::linear);
       if (by_cells) d.measure = measure_of_cells(cells);
     });
   }
@@ -119,6 +124,16 @@ struct PassSeconds {
   }
 };
 
+void second_order_stress(const System& s, Index tile, const Tensor* F, TileScratch& scratch,
+                         SecondOrderMemory& memory) {
+  const Tile& t = s.tiles.tiles[static_cast<std::size_t>(tile)];
+  find_point_strains(*s.second_order, t.begin, t.end, F, memory);
+  varied_stress_sweep(s, tile, F, memory.points.data(), {}, nullptr, 0.0, scratch, memory.points.data(), {});
+  take_moments(*s.second_order, t.begin, t.end, memory);
+  for (Index a = t.begin; a < t.end; ++a)
+    memory.T[static_cast<std::size_t>(a)] = to_tensor(scratch.T[static_cast<std::size_t>(a - t.begin)]);
+}
+
 /// The sweeps one by one, on arrays of their own. Those of the second pass follow each other tile by tile as in a step,
 /// because each finds in the cache what went before; their times are taken within the tile.
 void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
@@ -127,6 +142,7 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   Field<Tensor> F(n);
   Field<Double4> f(n), rim_f(s.tiles.rim.size());
   RawField<Tensor> rims(s.gradients ? s.tiles.rim.size() : 0);
+  SecondOrderMemory curved(s.second_order ? n : 0);
   parallel::Workspaces<TileScratch> scratches([&] { return std::make_unique<TileScratch>(s); });
   using Lease = parallel::Workspaces<TileScratch>::Lease;
   stages["strain"] = seconds_per_call([&] {
@@ -135,13 +151,20 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
       strain_sweep(s, static_cast<Index>(tile), state.x.data(), F.data(), *scratch);
     });
   });
+  if (s.second_order) {
+    stages["hessians"] = seconds_per_call([&] { find_hessians(*s.second_order, state.x.data(), curved); });
+    stages["faces"] =
+        seconds_per_call([&] { add_curvature_strain(*s.second_order, s.d.volume.data(), curved, F.data()); });
+  }
   const auto second_pass = [&](std::int64_t task) {
     const Lease scratch(scratches);
     const auto tile = static_cast<Index>(task);
     PassSeconds spent;
     spent.contact = seconds([&] { contact_sweep(s, tile, state.x.data(), F.data(), f.data(), *scratch); });
     spent.stress = seconds([&] {
-      if (s.gradients)
+      if (s.second_order)
+        second_order_stress(s, tile, F.data(), *scratch, curved);
+      else if (s.gradients)
         cell_stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, *scratch, rims.data(), {});
       else
         stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, *scratch);
@@ -160,6 +183,8 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   stages["contact"] = share * each.contact;
   stages["stress"] = share * each.stress;
   stages["force"] = share * each.force;
+  if (s.second_order)
+    stages["hessian forces"] = seconds_per_call([&] { add_hessian_forces(*s.second_order, curved, f.data()); });
   stages["rims"] = seconds_per_call([&] {
     parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
       collect_rims(s.tiles, rim_f.data(), f.data(), static_cast<Index>(begin), static_cast<Index>(end));
@@ -187,7 +212,7 @@ BenchRow measure(Index particles, int threads, const MethodSpec& method) {
   BenchRow row;
   row.threads = threads;
   row.formulation = method.formulation == Formulation::delaunay ? "delaunay" : "voronoi";
-  row.integration = method.integration == Integration::cell ? "cell" : "nodal";
+  row.integration = name_of(method.integration);
   const PeakMemory memory;
   const System system = build(particles, method, row.stages);
   if (const auto peak = memory.bytes()) row.setup_peak_bytes = *peak / static_cast<double>(system.particles());
@@ -244,6 +269,7 @@ void measure_speed(const BenchOptions& options, BenchReport& report) {
 void measure_accuracy(const BenchOptions& options, int threads, BenchReport& report) {
   parallel::set_threads(options.threads.value_or(threads));
   std::vector<Formulation> formulations = {Formulation::delaunay, Formulation::voronoi};
+  if (options.integration == Integration::second_order) formulations = {Formulation::voronoi};
   if (options.formulation) formulations = {*options.formulation};
   for (Formulation formulation : formulations)
     report.accuracy.push_back(measure_accuracy(formulation, options.integration));

@@ -20,6 +20,34 @@ struct PerParticle {
   double bonds, slots, rim;
 };
 
+constexpr double fit = sizeof(QuadraticFit), hessian = sizeof(Hessian), moment = sizeof(FitMoment);
+constexpr double points = sizeof(ThreeTensors), face = sizeof(HessianRows::Face);
+
+struct PerCell {
+  explicit PerCell(const SecondOrderSystem& s)
+      : stencil(static_cast<double>(s.rows.stencil.value.size()) / static_cast<double>(s.points.size())),
+        faces(static_cast<double>(s.rows.faces.size()) / static_cast<double>(s.points.size())) {}
+
+  double stencil, faces;
+};
+
+/// What second-order integration streams beside the rest: each array once a sweep.
+double second_order_bytes(const SecondOrderSystem& s) {
+  const PerCell n(s);
+  const double hessians = 2.0 * vector + n.stencil * index + fit + hessian;
+  const double strain = n.faces * face + hessian + 2.0 * tensor + number;
+  const double cubature = 2.0 * hessian + 2.0 * sizeof(Mat3) + 4.0 * points + 2.0 * tensor;
+  const double moments = n.faces * face + tensor + 2.0 * hessian + fit + moment;
+  const double forces = vector + n.stencil * index + moment + hessian + 6.0 * number + 2.0 * vector;
+  return hessians + strain + cubature + moments + forces;
+}
+
+double second_order_memory_bytes(const SecondOrderSystem& s) {
+  const PerCell n(s);
+  return vector + n.stencil * 2.0 * index + 2.0 * offset + fit + 6.0 * number + offset + n.faces * face + sizeof(Mat3) +
+         hessian + points + moment + tensor + vec3 + 6.0 * number /* measure */;
+}
+
 }  // namespace
 
 double bytes_per_particle_step(const System& s) {
@@ -32,7 +60,8 @@ double bytes_per_particle_step(const System& s) {
   const double kick_and_drift = number + vector + 2.0 * vector + 2.0 * vector;
   const double cells = (1.0 + n.rim) * (vec3 + local) + sizeof(Mat3) + n.bonds * incoming + 2.0 * tensor +
                        n.rim * (2.0 * tensor + index) + offset + number;
-  return strain + contact_and_stress + force + rims + kick_and_drift + (s.gradients ? cells : 0.0);
+  return strain + contact_and_stress + force + rims + kick_and_drift + (s.gradients ? cells : 0.0) +
+         (s.second_order ? second_order_bytes(*s.second_order) : 0.0);
 }
 
 double bytes_per_particle(const System& s) {
@@ -43,7 +72,8 @@ double bytes_per_particle(const System& s) {
   const double state = 2.0 * vector /* x, v */ + vector /* f */ + tensor /* F */;
   const double viscous = s.viscosity.empty() ? 0.0 : 2.0 * tensor + sizeof(ViscosityLaw);
   const double cells = vec3 /* centroid */ + sizeof(Mat3) + (1.0 + n.rim) * tensor;
-  return bonds + rims + constants + state + viscous + (s.gradients ? cells : 0.0);
+  return bonds + rims + constants + state + viscous + (s.gradients ? cells : 0.0) +
+         (s.second_order ? second_order_memory_bytes(*s.second_order) : 0.0);
 }
 
 }  // namespace tessera

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <compare>
 
+#include "tessera/discretization/cell_measure.hpp"
+#include "tessera/discretization/curved_faces.hpp"
 #include "tessera/discretization/face_positions.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
@@ -214,10 +216,11 @@ BoundaryNode constrained_node(const BoundaryFace& f, Index site, const Mat3& D, 
   return node;
 }
 
-void build_boundary(Discretization& d, const FacePositions& positions, const Cells& cells, std::span<const Mat3> D) {
+/// `positions` of the boundary faces: one row each.
+void build_boundary(Discretization& d, const Csr<FaceTerm>& positions, const Cells& cells, std::span<const Mat3> D) {
   for (std::size_t i = 0; i < cells.boundary.size(); ++i) {
     const BoundaryFace& f = cells.boundary[i];
-    const std::span<const FaceTerm> position = positions.boundary.row(static_cast<Index>(i));
+    const std::span<const FaceTerm> position = positions.row(static_cast<Index>(i));
     for (const FaceTerm& t : position) d.load.value.push_back({t.particle, t.weight * norm(f.area)});
     d.load.offset.push_back(static_cast<Offset>(d.load.value.size()));
     if (is_zero(D[i])) continue;
@@ -230,14 +233,24 @@ void build_boundary(Discretization& d, const FacePositions& positions, const Cel
 
 }  // namespace
 
-Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D) {
+Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D,
+                                     FaceOrder order) {
   Discretization d;
   describe_particles(d, X, cells);
   {
     const Csr<FaceOfCell> faces = faces_of_cells(cells);
     const FacePositions positions = face_positions(X, cells, faces, D);
     build_bonds(d, cells, faces, positions, D);
-    build_boundary(d, positions, cells, D);
+    if (order == FaceOrder::quadratic) {
+      CurvedFaces curved = curved_faces(X, cells, faces, positions, D);
+      d.second_order = std::move(curved.second_order);
+      d.measure = measure_of_cells(cells);
+      build_boundary(d, curved.boundary, cells, D);
+      for (BoundaryNode& node : d.nodes)
+        node.spread = face_spread(cells.boundary_second_moment[static_cast<std::size_t>(node.site)], norm(node.area));
+    } else {
+      build_boundary(d, positions.boundary, cells, D);
+    }
   }
   d.B_aa = diagonal_vectors(d);
   return d;

@@ -10,6 +10,7 @@
 #include "tessera/base/index.hpp"
 #include "tessera/base/mat3.hpp"
 #include "tessera/base/symmetric.hpp"
+#include "tessera/discretization/quadratic_fit.hpp"
 
 namespace tessera {
 
@@ -33,6 +34,20 @@ struct Bonds {
   }
 };
 
+/// Four points X +- first, X +- second, whose mean is that over a face with centroid X: for the principal axes of its
+/// second moment of quadratic functions too. Zero: the centroid alone [m].
+struct FaceSpread {
+  Vec3 first, second;
+
+  bool is_zero() const { return first == Vec3{} && second == Vec3{}; }
+  /// The mean of f(point) about X.
+  template <class Function>
+  Vec3 mean(const Vec3& X, Function&& f) const {
+    if (is_zero()) return f(X);
+    return 0.25 * (f(X + first) + f(X - first) + f(X + second) + f(X - second));
+  }
+};
+
 /// A point on the boundary whose motion is prescribed, wholly or in part: the position c_f of a constrained face
 /// (consistent) or the ghost of its cell (variational, quasi-static).
 ///
@@ -42,6 +57,7 @@ struct BoundaryNode {
   Index site = 0;           // the boundary face, index into Discretization::sites
   Vec3 X;                   // reference position of the node [m]
   Vec3 wall;                // reference position W_f of the prescribed point [m]
+  FaceSpread spread;        // of the face over which prescribed motion is averaged
   Vec3 N;                   // outward unit normal of the face
   Vec3 area;                // outward area vector of the face [m2]
   Mat3 D;                   // projection onto the constrained directions, [V 14]
@@ -91,6 +107,28 @@ struct DirectForce {
   std::vector<Vec3> B_aa;  // per particle [m2]
 };
 
+/// A face as one of its cells sees it, for what second derivatives add to its position, c_f += (H_a + H_b)/2 : M.
+struct CurvedFace {
+  Index neighbour = 0;
+  Vec3 area;     // outward [m2]
+  Symmetric3 M;  // [m2]
+};
+
+/// Of a cell at the boundary: sum_f A_f M_f over its free boundary faces, whose c_f += H_a : M_f; one vector for each
+/// second derivative (xx, xy, xz, yy, yz, zz), mixed ones counted twice [m4].
+struct CurvedSurface {
+  Index particle = 0;
+  std::array<Vec3, 6> area_moment;
+};
+
+/// What makes quadratic motion exact (theory, "Second order"): second derivatives, and the faces that they move. What
+/// they do to boundary nodes and load shares is part of these.
+struct SecondOrder {
+  QuadraticFits fits;
+  Csr<CurvedFace> faces;                // one row a particle
+  std::vector<CurvedSurface> surfaces;  // sorted by particle
+};
+
 /// The regions over which the F_a are means, for integrals over cells. Each has the particle's volume V_a.
 struct CellMeasure {
   std::vector<Vec3> centroid;             // [m]
@@ -114,6 +152,7 @@ struct Discretization {
   Csr<LoadShare> load;                          // one row per site
   std::vector<ParticleConstraint> constraints;  // sorted by particle
   std::optional<CellMeasure> measure;           // set where cells are integrated by cubature
+  std::optional<SecondOrder> second_order;      // set for second-order integration only
   double body_volume = 0.0;                     // of the solid, for the identity sum V_a = V [m3]
 
   Index particles() const { return static_cast<Index>(X.size()); }

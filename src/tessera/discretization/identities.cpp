@@ -55,6 +55,44 @@ double duality(const Discretization& d) {
   return w;
 }
 
+/// What free faces hand to particles through second derivatives, H_a = sum_b W_ab (x_b - x_a).
+void add_curvature(const Discretization& d, std::vector<Balance>& columns) {
+  for (const CurvedSurface& s : d.second_order->surfaces) {
+    const auto a = static_cast<std::size_t>(s.particle);
+    for (const Index b : d.second_order->fits.stencil.row(s.particle)) {
+      const Symmetric3 W = d.second_order->fits.fit[a].weights(d.X[static_cast<std::size_t>(b)] - d.X[a]);
+      const std::array<Vec3, 6>& m = s.area_moment;
+      const Vec3 B = W.xx * m[0] + W.xy * m[1] + W.xz * m[2] + W.yy * m[3] + W.yz * m[4] + W.zz * m[5];
+      columns[static_cast<std::size_t>(b)].add(B);
+      columns[a].add(-B);
+    }
+  }
+}
+
+/// Those of a quadratic function, against its own. Particles in one plane do not see all of them.
+double second_derivatives(const Discretization& d) {
+  std::vector<double> violation(d.X.size());
+  parallel::for_each(d.particles(), [&](std::int64_t row) {
+    const auto a = static_cast<std::size_t>(row);
+    const QuadraticFits& fits = d.second_order->fits;
+    const double size = std::cbrt(d.volume[a]);
+    const Mat3 q{{0.3, -0.7, 0.2, -0.7, 1.1, 0.5, 0.2, 0.5, -0.4}};
+    Symmetric3 found;
+    Mat3 extent;
+    for (const Index b : fits.stencil.row(static_cast<Index>(row))) {
+      const Vec3 y = d.X[static_cast<std::size_t>(b)] - d.X[a];
+      found += (0.5 * dot(y, q * y) + size * (y.x - y.y + y.z)) * fits.fit[a].weights(y);
+      extent += outer(y, y);
+    }
+    const double least = 1e-14 * size * size;
+    if (!fits.resolved[a] || determinant(extent) < least * trace(extent) * trace(extent)) return;
+    violation[a] = magnitude(to_mat3(found) - q);
+  });
+  double w = 0.0;
+  for (const double v : violation) w = larger(w, v);
+  return w;
+}
+
 /// Under a constant stress P the force on b is - P sum_a B_ab; tractions P N on the free faces must balance it. Faces
 /// with a node balance by themselves: their closure hands - P A_f back with the weights of the traction.
 double columns(const Discretization& d, const std::vector<char>& checked) {
@@ -65,6 +103,7 @@ double columns(const Discretization& d, const std::vector<char>& checked) {
     column.add(d.B_aa[static_cast<std::size_t>(b)]);
     for (Offset i = d.bonds.begin(b); i < d.bonds.end(b); ++i) column.add(d.bonds.B_ba(b, i));
   });
+  if (d.second_order) add_curvature(d, columns);
   std::vector<char> held(d.sites.size(), 0);
   for (const BoundaryNode& f : d.nodes) held[static_cast<std::size_t>(f.site)] = 1;
   for (std::size_t s = 0; s < d.sites.size(); ++s)
@@ -140,6 +179,7 @@ Identities identities_of_voronoi(const Discretization& d, const Cells& cells, do
     }
   result["columns"] = columns(d, checked);
   result["duality"] = duality(d);
+  if (d.second_order) result["second derivatives"] = second_derivatives(d);
   result["antisymmetry"] = antisymmetry;
   result["area"] = area;
   return result;

@@ -15,6 +15,7 @@ namespace tessera {
 ///   whose
 ///                 condensed vectors break it at free faces
 ///   duality       sum_b X_ab (x) B_ab = V_a I, [D 33], [V 8]
+///   second derivatives  of a quadratic function, by the fits of second-order integration
 ///   antisymmetry  B_ab = - B_ba unless both are on the boundary, [D 30]; of the normal parts, [V 11] (voronoi)
 ///   area          A_ab = B_ab - B_ba, [V 11] (voronoi)
 /// The last two are those of faces that bisect the branch between their particles.

@@ -55,6 +55,18 @@ void append_bonds(Bonds& all, Bonds& more, Index shift) {
   move_to_end(all.area_over_length, more.area_over_length);
 }
 
+void append_second_order(SecondOrder& all, SecondOrder more, Index shift) {
+  for (Index& b : more.fits.stencil.value) b += shift;
+  for (CurvedFace& f : more.faces.value) f.neighbour += shift;
+  for (CurvedSurface& s : more.surfaces) s.particle += shift;
+  append_rows(all.fits.stencil, more.fits.stencil);
+  move_to_end(all.fits.fit, more.fits.fit);
+  move_to_end(all.fits.resolved, more.fits.resolved);
+  move_to_end(all.fits.amplification, more.fits.amplification);
+  append_rows(all.faces, more.faces);
+  move_to_end(all.surfaces, more.surfaces);
+}
+
 }  // namespace
 
 void append(Discretization& all, Discretization body) {
@@ -96,6 +108,7 @@ void append(Discretization& all, Discretization body) {
     move_to_end(all.measure->centroid, body.measure->centroid);
     move_to_end(all.measure->second_moment, body.measure->second_moment);
   }
+  if (body.second_order) append_second_order(*all.second_order, std::move(*body.second_order), particles);
   all.body_volume += body.body_volume;
 }
 

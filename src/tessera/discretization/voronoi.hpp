@@ -9,10 +9,15 @@
 
 namespace tessera {
 
+/// Up to which degree the positions of faces are exact.
+enum class FaceOrder { linear, quadratic };
+
 /// Consistent face formulation (theory, "Consistent faces"): every face has one position c_f, exact for linear motion
 /// and the same seen from both sides, V_a F_a = sum_f c_f (x) A_f. `D` holds one projection per boundary face, [V 14].
+/// Quadratic faces need the second moments of faces; they are linear where quadratics are not resolved.
 /// Throws GeometryError that names the particles whose neighbours cannot carry a linear motion.
-Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D);
+Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D,
+                                     FaceOrder order = FaceOrder::linear);
 
 /// What the forces of the ghost formulation derive from.
 enum class GhostForce {

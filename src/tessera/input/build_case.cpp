@@ -23,6 +23,14 @@ MethodSpec build_method(const Reader& t) {
         t.origin_of("integration"),
         "found \"cell\" with boundary = \"quasi-static\", whose forces derive from no energy that could be "
         "integrated; take boundary = \"consistent\" or \"variational\", or integration = \"nodal\"");
+  if (t.text("integration") == "second-order") {
+    method.integration = Integration::second_order;
+    if (method.formulation != Formulation::voronoi || method.boundary != BoundaryTreatment::consistent)
+      throw InputError(
+          t.origin_of("integration"),
+          "found \"second-order\"; it needs formulation = \"voronoi\" and boundary = \"consistent\", whose "
+          "faces have one position each; the others have \"nodal\" and \"cell\"");
+  }
   const std::string tetrahedra = t.text_or_empty("tetrahedra");
   if (tetrahedra == "delaunay") method.tetrahedra = Tetrahedralization::delaunay;
   if (tetrahedra == "split") method.tetrahedra = Tetrahedralization::split;

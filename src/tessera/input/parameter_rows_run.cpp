@@ -31,11 +31,12 @@ Rows method_rows() {
       {.key = "method.integration",
        .kind = choice,
        .presence = defaulted,
-       .choices = {"nodal", "cell"},
+       .choices = {"nodal", "cell", "second-order"},
        .standard = "\"nodal\"",
        .sentence =
            "Where the strain energy is taken: nodal, at the mean deformation of each particle, as in the papers; "
-           "cell, at six points of each cell (not with quasi-static)."},
+           "cell, at six points of each cell (not with quasi-static); second-order, the same with faces and points "
+           "that are exact for quadratic motion (voronoi consistent only)."},
       {.key = "method.volumetric",
        .kind = choice,
        .presence = defaulted,

@@ -7,8 +7,8 @@
 namespace tessera {
 
 PrescribedMotion::PrescribedMotion(std::vector<Vec3> X, std::vector<PointConstraint> constraints,
-                                   std::span<const Vec3> initial)
-    : X_(std::move(X)), positions_(X_) {
+                                   std::span<const Vec3> initial, std::vector<FaceSpread> spreads)
+    : X_(std::move(X)), positions_(X_), spreads_(std::move(spreads)) {
   for (std::size_t i = 0; i < constraints.size(); ++i)
     for (const MotionPart& part : constraints[i].parts) {
       auto group =
@@ -24,13 +24,18 @@ PrescribedMotion::PrescribedMotion(std::vector<Vec3> X, std::vector<PointConstra
   place();
 }
 
+Vec3 PrescribedMotion::mean_at(const MotionValues& values, std::size_t point) const {
+  if (spreads_.empty()) return values.at(X_[point]);
+  return spreads_[point].mean(X_[point], [&](const Vec3& X) { return values.at(X); });
+}
+
 void PrescribedMotion::move_to(double t) {
   const double dt = t - time_, middle = time_ + 0.5 * dt;
   for (const Group& g : groups_) {
     if (!std::holds_alternative<PrescribedVelocity>(g.condition->kind) || dt == 0.0) continue;
     const MotionValues v(*g.condition, middle);
     for (std::size_t k = 0; k < g.parts.size(); ++k)
-      integrated_[g.first_integrated + k] += dt * v.at(X_[g.parts[k].point]);
+      integrated_[g.first_integrated + k] += dt * mean_at(v, g.parts[k].point);
   }
   time_ = t;
   place();
@@ -44,7 +49,7 @@ void PrescribedMotion::place() {
         positions_[g.parts[k].point] += g.parts[k].M * integrated_[g.first_integrated + k];
     } else {
       const MotionValues u(*g.condition, time_);
-      for (const Part& p : g.parts) positions_[p.point] += p.M * u.at(X_[p.point]);
+      for (const Part& p : g.parts) positions_[p.point] += p.M * mean_at(u, p.point);
     }
   }
 }

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "tessera/base/vec3.hpp"
+#include "tessera/discretization/discretization.hpp"
 #include "tessera/loads/assignment.hpp"
+#include "tessera/loads/condition_values.hpp"
 
 namespace tessera {
 
@@ -12,8 +14,9 @@ namespace tessera {
 class PrescribedMotion {
  public:
   /// `X` are the points' reference positions, `initial` their displacements at time zero, from which prescribed
-  /// velocities start [m].
-  PrescribedMotion(std::vector<Vec3> X, std::vector<PointConstraint> constraints, std::span<const Vec3> initial);
+  /// velocities start [m]. `spreads`, if any, has one entry a point: those of faces over which motion is averaged.
+  PrescribedMotion(std::vector<Vec3> X, std::vector<PointConstraint> constraints, std::span<const Vec3> initial,
+                   std::vector<FaceSpread> spreads = {});
   PrescribedMotion() = default;
 
   /// Moves the points to time t. Velocities are integrated over the time since the last call by the midpoint rule.
@@ -41,8 +44,11 @@ class PrescribedMotion {
   };
 
   void place();
+  /// At a point, or the mean over its face.
+  Vec3 mean_at(const MotionValues& values, std::size_t point) const;
 
   std::vector<Vec3> X_, positions_;
+  std::vector<FaceSpread> spreads_;
   std::vector<Group> groups_;
   std::vector<Vec3> integrated_;
   double time_ = 0.0;

@@ -36,7 +36,8 @@ Forces::Forces(const System& system, Flow flow)
         if (split_) scratch->P.resize(scratch->T.size());
         return scratch;
       }),
-      flow_(flow) {
+      flow_(flow),
+      curved_(system.second_order ? system.d.X.size() : 0) {
   const auto particles = static_cast<std::size_t>(system.particles());
   const auto nodes = static_cast<std::size_t>(system.boundary_nodes());
   F_.resize(particles);
@@ -65,7 +66,12 @@ void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
     return parallel::sum_tasks<StressSums>(system_.tiles.size(),
                                            [&](std::int64_t tile) { return body(static_cast<Index>(tile)); });
   };
-  if (system_.gradients) {
+  if (system_.second_order) {
+    sums_ = over_tiles([&](Index tile) { return curved_stresses(tile, state, dt); });
+    return_gradients(*system_.second_order, system_.d.volume.data(), curved_);
+    sums_ += over_tiles([&](Index tile) { return curved_forces(tile, state); });
+    add_hessian_forces(*system_.second_order, curved_, f_.data());
+  } else if (system_.gradients) {
     sums_ = over_tiles([&](Index tile) { return cell_stresses(tile, state, dt); });
     sums_ += over_tiles([&](Index tile) { return cell_forces(tile, state); });
   } else {
@@ -85,12 +91,14 @@ void Forces::restore_previous_deformation(Field<Tensor> F) {
 void Forces::strain(State& state, const ExternalAction& action) {
   const System& s = system_;
   if (!s.viscosity.empty()) std::swap(F_, viscous_.F_previous);
+  if (s.second_order) find_hessians(*s.second_order, state.x.data(), curved_);
   fill_boundary_nodes(s, action.walls, state.x.data());
   parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
     const Lease scratch(scratch_);
     strain_sweep(s, static_cast<Index>(tile), state.x.data(), F_.data(), *scratch);
   });
   add_boundary_strain(s, state.x.data(), F_.data());
+  if (s.second_order) add_curvature_strain(*s.second_order, s.d.volume.data(), curved_, F_.data());
 }
 
 /// Stresses of one tile's own particles and what they do to each other, to the rim and to boundary nodes.
@@ -130,6 +138,58 @@ StressSums Forces::cell_forces(Index tile, const State& state) {
   sums.contact = boundary_forces(tile, state, *scratch);
   hand_on(tile, *scratch);
   return sums;
+}
+
+/// The same for second-order integration.
+StressSums Forces::curved_stresses(Index tile, const State& state, double dt) {
+  const System& s = system_;
+  const Tile& t = tile_of(s, tile);
+  const Lease scratch(scratch_);
+  const double contact = contact_sweep(s, tile, state.x.data(), F_.data(), f_.data(), *scratch);
+  find_point_strains(*s.second_order, t.begin, t.end, F_.data(), curved_);
+  const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
+  StressSums sums =
+      varied_stress_sweep(s, tile, F_.data(), curved_.points.data(), history, s.viscosity.empty() ? nullptr : &viscous_,
+                          dt, *scratch, curved_.points.data(), {});
+  sums.contact = contact;
+  take_moments(*s.second_order, t.begin, t.end, curved_);
+  for (Index a = t.begin; a < t.end; ++a)
+    curved_.T[static_cast<std::size_t>(a)] = to_tensor(scratch->T[static_cast<std::size_t>(a - t.begin)]);
+  return sums;
+}
+
+/// Boundary bonds complete the stresses of their owners before those go to the faces.
+StressSums Forces::curved_forces(Index tile, const State& state) {
+  const Tile& t = tile_of(system_, tile);
+  const Lease scratch(scratch_);
+  for (Index a = t.begin; a < t.end; ++a)
+    scratch->T[static_cast<std::size_t>(a - t.begin)] = to_kernel(curved_.T[static_cast<std::size_t>(a)]);
+  StressSums sums;
+  sums.contact = boundary_forces(tile, state, *scratch);
+  for_each_owner(system_, tile, [&](Index, Index a) {
+    curved_.T[static_cast<std::size_t>(a)] = to_tensor(scratch->T[static_cast<std::size_t>(a - t.begin)]);
+  });
+  hand_on(tile, *scratch);
+  return sums;
+}
+
+/// Stresses of all cells without viscosity and bonds, complete in `memory`, at the state of the last evaluation.
+void Forces::report_curved(const State& state, const CellReport& report, SecondOrderMemory& memory) const {
+  const System& s = system_;
+  find_hessians(*s.second_order, state.x.data(), memory);
+  parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
+    const auto tile = static_cast<Index>(task);
+    const Tile& t = tile_of(s, tile);
+    const Lease scratch(scratch_);
+    find_point_strains(*s.second_order, t.begin, t.end, F_.data(), memory);
+    std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
+    varied_stress_sweep(s, tile, F_.data(), memory.points.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0,
+                        *scratch, memory.points.data(), report);
+    take_moments(*s.second_order, t.begin, t.end, memory);
+    for (Index a = t.begin; a < t.end; ++a)
+      memory.T[static_cast<std::size_t>(a)] = to_tensor(scratch->T[static_cast<std::size_t>(a - t.begin)]);
+  });
+  return_gradients(*s.second_order, s.d.volume.data(), memory);
 }
 
 void Forces::recall(Index tile, const CellMemory& cells, TileScratch& scratch) const {
@@ -198,6 +258,11 @@ void Forces::finish(const State& state, const ExternalAction& action) {
 std::vector<double> Forces::smallest_J(const State& state) const {
   const System& s = system_;
   std::vector<double> J(static_cast<std::size_t>(s.particles()));
+  if (s.second_order) {
+    SecondOrderMemory memory(J.size());
+    report_curved(state, {nullptr, J.data()}, memory);
+    return J;
+  }
   if (!s.gradients) {
     for (std::size_t a = 0; a < J.size(); ++a) J[a] = determinant(to_mat3(F_[a]));
     return J;
@@ -222,6 +287,8 @@ Forces::Internal Forces::internal(const State& state) const {
   const Vec3* B = s.d.direct ? s.tiles.direct_B.data() : s.tiles.B.data();
   const Vec3* B_aa = s.d.direct ? s.d.direct->B_aa.data() : s.d.B_aa.data();
   CellMemory cells;
+  SecondOrderMemory curved(s.second_order ? particles : 0);
+  if (s.second_order) report_curved(state, {result.P.data(), nullptr}, curved);
   if (s.gradients) {
     cells.T.resize(particles);
     cells.rim_energies.resize(s.tiles.rim.size());
@@ -244,7 +311,9 @@ Forces::Internal Forces::internal(const State& state) const {
     const Lease scratch(scratch_);
     Columns* P = split() ? scratch->P.data() : scratch->T.data();
     std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
-    if (s.gradients) {
+    if (s.second_order) {
+      for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(curved.T[static_cast<std::size_t>(a)]);
+    } else if (s.gradients) {
       for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(cells.T[static_cast<std::size_t>(a)]);
       collect_rim_stresses(s, tile, cells.rim_energies.data(), P);
     } else {
@@ -252,11 +321,12 @@ Forces::Internal Forces::internal(const State& state) const {
     }
     for (Index a = t.begin; a < t.end; ++a) {
       const auto k = static_cast<std::size_t>(a);
-      if (!s.gradients) result.P[k] = to_tensor(P[a - t.begin]);
+      if (!s.gradients && !s.second_order) result.P[k] = to_tensor(P[a - t.begin]);
       if (viscous_.P_previous.empty()) continue;
       const Columns viscous = to_kernel(viscous_.P_previous[k]);
       P[a - t.begin] = P[a - t.begin] + viscous;
       result.P[k] = to_tensor(to_kernel(result.P[k]) + viscous);
+      if (s.second_order) curved.T[k] = to_tensor(P[a - t.begin]);
     }
     for_each_owner(s, tile, [&](Index k, Index a) {
       owners_P[static_cast<std::size_t>(k)] = P[a - t.begin];
@@ -264,6 +334,7 @@ Forces::Internal Forces::internal(const State& state) const {
     });
     force_sweep(s, tile, P, B, B_aa, result.force.data(), rim_f.data());
   });
+  if (s.second_order) add_hessian_forces(*s.second_order, curved, result.force.data());
   std::vector<Vec3> reactions(static_cast<std::size_t>(s.boundary_nodes()));
   if (split()) {
     if (!s.d.direct) drain_with_held_branches(s, owners_P.data(), R.data(), result.force.data());

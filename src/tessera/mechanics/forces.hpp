@@ -25,7 +25,8 @@ struct ExternalAction {
 
 /// Forces as the gradient of the potential: fill the boundary nodes; strain tile by tile; stress and force tile by
 /// tile; drain the boundary nodes; add up. With cell integration stresses are complete only when all tiles have theirs,
-/// so forces are a pass of their own. One object is kept and reused.
+/// so forces are a pass of their own; with second-order integration second derivatives are one before strain and one at
+/// the end. One object is kept and reused.
 class Forces {
  public:
   explicit Forces(const System& system, Flow flow = Flow::allowed);
@@ -78,6 +79,9 @@ class Forces {
                             TileScratch& scratch) const;
   double boundary_forces(Index tile, const State& state, TileScratch& scratch);
   void hand_on(Index tile, TileScratch& scratch);
+  StressSums curved_stresses(Index tile, const State& state, double dt);
+  StressSums curved_forces(Index tile, const State& state);
+  void report_curved(const State& state, const CellReport& report, SecondOrderMemory& memory) const;
   void drain();
   void finish(const State& state, const ExternalAction& action);
   /// Boundary nodes or rows treat the elastic stress and the contact stress differently ([V 42, 43]).
@@ -96,6 +100,7 @@ class Forces {
   Field<PlasticState> history_after_;
   CellMemory cells_;
   std::optional<AveragedStress> averaged_;
+  SecondOrderMemory curved_;  // empty but for second-order integration
   StressSums sums_;
 };
 

@@ -16,6 +16,11 @@ struct Tensor {
   double m[9];
 };
 
+/// What F_a lacks at three stress points of a cell, or derivatives of its energy with respect to three tensors.
+struct ThreeTensors {
+  Columns k[3];
+};
+
 inline Double4 to_kernel(const Vec3& v) { return Double4{v.x, v.y, v.z, 0.0}; }
 inline Vec3 to_vec3(const Double4& v) { return {v[0], v[1], v[2]}; }
 

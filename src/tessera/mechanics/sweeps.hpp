@@ -52,11 +52,6 @@ struct alignas(64) TileNode {
   double value[16];  // F/2 column by column, position and reference position [m], and one number that means nothing
 };
 
-/// What F_a lacks at three stress points of a cell, or derivatives of its energy with respect to three tensors.
-struct ThreeTensors {
-  Columns k[3];
-};
-
 /// Memory for one tile at a time, by local numbers.
 struct TileScratch {
   explicit TileScratch(const System& s);

@@ -104,7 +104,11 @@ System make_system(Discretization d, std::vector<Material> materials, const std:
   measure_bonds(s, material_of);
   s.tiles = make_tiles(s.d, s.ranges, particles_per_tile > 0 ? particles_per_tile : tile_size(s.particles()));
   find_owners_of_tiles(s);
-  if (s.d.measure) {
+  if (s.d.second_order) {
+    s.second_order = second_order_system(s.d);
+    s.stress_points = stress_points_of_a_cell;
+    s.d.second_order.reset();
+  } else if (s.d.measure) {
     s.gradients = cell_gradients(s.d);
     s.d.measure->second_moment = {};
     s.stress_points = stress_points_of_a_cell;

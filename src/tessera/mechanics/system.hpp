@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "tessera/base/csr.hpp"
@@ -9,6 +10,7 @@
 #include "tessera/laws/material.hpp"
 #include "tessera/laws/viscosity.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
+#include "tessera/mechanics/second_order.hpp"
 #include "tessera/mechanics/tiles.hpp"
 #include "tessera/mechanics/volume_average.hpp"
 
@@ -51,8 +53,9 @@ struct System {
   Csr<ReturnTerm> returned;          // the transposed closure: one row per receiver
   Csr<ReturnTerm> returned_to_node;  // the same for nodes that other nodes follow: one row per boundary node
 
-  std::optional<CellGradients> gradients;  // where cells are integrated by cubature
-  std::optional<VolumeAverage> average;    // where laws see a mean change of volume
+  std::optional<CellGradients> gradients;         // where cells are integrated by cubature
+  std::optional<VolumeAverage> average;           // where laws see a mean change of volume
+  std::optional<SecondOrderSystem> second_order;  // set for second-order integration only
 
   std::vector<ViscosityLaw> viscosity;  // per particle; empty when no material is viscous
   Index stress_points = 1;              // of each particle: where laws are evaluated

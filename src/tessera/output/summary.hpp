@@ -40,8 +40,9 @@ struct MassScalingSummary {
 
 /// How the strain energy of cells was integrated, where not at their mean deformation.
 struct IntegrationSummary {
-  std::string kind;                   // "cell"
-  std::int64_t unresolved_cells = 0;  // without neighbours in some direction, along which F counts as constant
+  std::string kind;                   // "cell" or "second-order"
+  std::int64_t unresolved_cells = 0;  // cell: without neighbours in some direction, along which F counts as constant;
+                                      // second-order: that took cell integration
 };
 
 /// The result of a run in numbers: the content of summary.json, key for key.

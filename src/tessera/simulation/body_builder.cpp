@@ -124,12 +124,21 @@ Discretization discretize(const MethodSpec& method, std::span<const Vec3> X, con
     case BoundaryTreatment::consistent:
       break;
   }
-  return discretize_consistent(X, cells, D);
+  return discretize_consistent(
+      X, cells, D, method.integration == Integration::second_order ? FaceOrder::quadratic : FaceOrder::linear);
 }
 
 /// What the integration over cells has to know of them.
 Moments moments_for(const MethodSpec& method) {
-  return method.integration == Integration::cell ? Moments::second_of_cells : Moments::first;
+  switch (method.integration) {
+    case Integration::nodal:
+      return Moments::first;
+    case Integration::cell:
+      return Moments::second_of_cells;
+    case Integration::second_order:
+      break;
+  }
+  return Moments::second_of_faces;
 }
 
 /// A traction along a component whose motion is prescribed would have no effect; a pressure that follows turns into
@@ -162,6 +171,21 @@ struct BodyCells {
   double solid_volume = 0.0;  // [m3]
 };
 
+std::string describe_fits(const std::string& body, const QuadraticFits& fits) {
+  const auto unresolved = std::count(fits.resolved.begin(), fits.resolved.end(), 0);
+  std::string text =
+      fmt::format("second-order integration of body \"{}\": second derivatives from {:.3g} particles on average", body,
+                  static_cast<double>(fits.stencil.value.size()) /
+                      static_cast<double>(
+                          std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(fits.resolved.size()) - unresolved, 1)));
+  if (unresolved > 0)
+    text += fmt::format(
+        "; {} of {} cells take integration = \"cell\" and linear faces, for the particles around them do not determine "
+        "second derivatives (fewer than three layers in some direction)",
+        unresolved, fits.resolved.size());
+  return text;
+}
+
 /// Constraints, loads and bonds of a body whose surface is known.
 void discretize_cells(const Case& c, const BodyCells& made, const std::vector<BoundaryCondition>& conditions,
                       BuiltBody& b) {
@@ -171,6 +195,7 @@ void discretize_cells(const Case& c, const BodyCells& made, const std::vector<Bo
   for (const PointConstraint& p : b.pieces) D.push_back(p.D);
   b.d = discretize(c.method, made.X, made.cells, D);
   if (c.method.integration == Integration::cell) b.d.measure = measure_of_cells(made.cells);
+  if (b.d.second_order) b.notes.push_back(describe_fits(b.surface.body, b.d.second_order->fits));
   for (const BoundaryNode& f : b.d.nodes) b.constraints.push_back(b.pieces[static_cast<std::size_t>(f.site)]);
   b.identities = identities_of_voronoi(b.d, made.cells, made.solid_volume);
   refuse_loads_on_held_components(b, c.time.end);

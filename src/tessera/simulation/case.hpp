@@ -21,8 +21,15 @@ enum class Formulation { delaunay, voronoi };
 /// How the cells' faces on the boundary move, theory: consistent (ours), [V 43] and [V 42].
 enum class BoundaryTreatment { consistent, variational, quasi_static };
 
-/// Where the strain energy of a cell is taken: at its mean deformation (the papers), or at six points of it.
-enum class Integration { nodal, cell };
+/// Where the strain energy of a cell is taken: at its mean deformation (the papers), or at six points of it, between
+/// which the deformation varies as between its neighbours, or as second derivatives of the motion say.
+enum class Integration { nodal, cell, second_order };
+
+/// As the case file says it.
+inline std::string name_of(Integration i) {
+  if (i == Integration::nodal) return "nodal";
+  return i == Integration::cell ? "cell" : "second-order";
+}
 
 /// The [method] table.
 struct MethodSpec {

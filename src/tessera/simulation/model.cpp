@@ -35,18 +35,19 @@ struct InitialMotion {
 /// Points with prescribed motion and loaded sites, gathered over the bodies.
 struct LoadParts {
   std::vector<Vec3> X, initial;
+  std::vector<FaceSpread> spreads;
   std::vector<PointConstraint> constraints;
   std::vector<LoadedSite> sites;
 };
 
 void collect_motion(LoadParts& parts, const BuiltBody& b, const InitialMotion& initial) {
-  std::vector<Vec3> points;
-  for (const BoundaryNode& f : b.d.nodes) points.push_back(f.wall);
-  for (const ParticleConstraint& c : b.d.constraints) points.push_back(b.d.X[static_cast<std::size_t>(c.particle)]);
-  for (const Vec3& X : points) {
+  const auto add = [&](const Vec3& X, const FaceSpread& face) {
     parts.X.push_back(X);
-    parts.initial.push_back(initial.displacement(X));
-  }
+    parts.spreads.push_back(face);
+    parts.initial.push_back(face.mean(X, [&](const Vec3& p) { return initial.displacement(p); }));
+  };
+  for (const BoundaryNode& f : b.d.nodes) add(f.wall, f.spread);
+  for (const ParticleConstraint& c : b.d.constraints) add(b.d.X[static_cast<std::size_t>(c.particle)], {});
   parts.constraints.insert(parts.constraints.end(), b.constraints.begin(), b.constraints.end());
 }
 
@@ -140,7 +141,7 @@ Model build_model(const Case& c) {
     model.bodies.push_back(place_body(b, all));
     append(all, std::move(b.d));
   }
-  model.loads.motion = PrescribedMotion(parts.X, parts.constraints, parts.initial);
+  model.loads.motion = PrescribedMotion(parts.X, parts.constraints, parts.initial, parts.spreads);
   model.loads.tractions = Tractions(all, parts.sites);
   model.loads.gravity = c.gravity;
   model.system = make_system(std::move(all), c.materials, model.material_of, 0, c.method.volumetric);

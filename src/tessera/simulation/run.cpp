@@ -232,6 +232,8 @@ void Run::summarise(const std::string& status, const std::string& message) {
   s.quality = model_->quality;
   s.step_control = {engine_->step_control().evaluations(), engine_->step_control().limit()};
   if (const auto& gradients = model_->system.gradients) s.integration = {"cell", gradients->unresolved};
+  if (const auto& second = model_->system.second_order)
+    s.integration = {"second-order", static_cast<std::int64_t>(second->unresolved.size())};
   if (engine_->mass_scaling()) s.mass_scaling = mass_scaling_summary();
   s.max_force_residual = engine_->largest_force();
   write_summary(summary_path(options_.directory), s);

@@ -59,6 +59,27 @@ TEST_P(Threads, SetUpHasTheSameBits) {
   }
 }
 
+/// The same for quadratic faces.
+TEST_F(Threads, QuadraticFacesHaveTheSameBits) {
+  const VoronoiBody body = voronoi_body(box({1, 1, 1}), {14, 14, 14}, 0.3, 7, mixed);
+  const auto build = [&](int threads) {
+    parallel::set_threads(threads);
+    return discretize(Method::consistent, body, Integration::second_order);
+  };
+  const Discretization one = build(1);
+  for (const int threads : {2, 3}) {
+    const Discretization other = build(threads);
+    expect_same(one, other);
+    EXPECT_EQ(one.second_order->fits.stencil.value, other.second_order->fits.stencil.value);
+    EXPECT_EQ(one.second_order->fits.amplification, other.second_order->fits.amplification);
+    const auto same = [](const CurvedFace& f, const CurvedFace& g) {
+      return f.neighbour == g.neighbour && f.area == g.area && f.M == g.M;
+    };
+    const auto &faces = one.second_order->faces.value, &others = other.second_order->faces.value;
+    EXPECT_TRUE(std::equal(faces.begin(), faces.end(), others.begin(), others.end(), same));
+  }
+}
+
 /// The same for Delaunay.
 TEST_F(Threads, DelaunaySetUpHasTheSameBits) {
   const auto build = [](int threads) {

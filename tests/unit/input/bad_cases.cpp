@@ -161,6 +161,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Bad{"boundary = \"variational\"", "boundary = \"quasi-static\"\nintegration = \"cell\"", "5:15",
             "method.integration", "derive from no energy"},
+        Bad{"boundary = \"variational\"", "boundary = \"variational\"\nintegration = \"second-order\"", "5:15",
+            "method.integration", "it needs formulation = \"voronoi\" and boundary = \"consistent\""},
         Bad{"material = \"rubber\"", "material = \"ruber\"", "9:12", "body.0.material",
             "found \"ruber\", no material of this case (did you mean \"rubber\"?); known: \"rubber\""},
         Bad{"condition = \"symmetric\"\n", "", "24:1", "boundary.1",

@@ -19,6 +19,17 @@ TEST(PrescribedMotionOfPoints, FollowsFormulasOfTimeAndPlace) {
   EXPECT_LT(norm(motion.positions()[0] - (X + Vec3{1, std::sin(0.5) + 15, 3})), 1e-14);
 }
 
+/// The mean over a rectangle of 2 x 1 m in the plane Z = 3, whose half axes are spread by sqrt(2 I / A).
+TEST(PrescribedMotionOfPoints, AveragesQuadraticMotionOverFaces) {
+  const BoundaryCondition c =
+      entry(1, {}, PrescribedDisplacement{{formula("X^2"), formula("X*Y + Y^2"), formula("t")}});
+  const Vec3 X{1, 0.5, 3};
+  const FaceSpread face{{std::sqrt(2.0 / 3.0), 0, 0}, {0, std::sqrt(2.0 / 12.0), 0}};
+  PrescribedMotion motion({X}, {PointConstraint{identity(), {{&c, identity()}}}}, std::vector<Vec3>(1), {face});
+  motion.move_to(2.0);
+  EXPECT_LT(norm(motion.positions()[0] - (X + Vec3{4.0 / 3.0, 0.5 + 1.0 / 3.0, 2.0})), 1e-14);
+}
+
 TEST(PrescribedMotionOfPoints, LeavesFreeComponentsAtTheirReference) {
   const BoundaryCondition c = entry(1, {}, PrescribedDisplacement{{std::nullopt, formula("t"), std::nullopt}});
   PrescribedMotion motion = one_point(c, diagonal(0, 1, 0), {1, 1, 1}, {7, 7, 7});

@@ -78,14 +78,18 @@ std::vector<Variant> variants() {
     }
     all.push_back({Method::variational, nothing, "variational_free_" + name_of(i), i});
   }
+  for (const auto& [name, constrain] :
+       std::vector<std::pair<std::string, Constrain>>{{"free", nothing}, {"mixed", mixed}, {"held", everything}})
+    all.push_back({Method::consistent, constrain, "consistent_" + name + "_second_order", Integration::second_order});
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Conditions, ReactionsFromPotential,
-                         testing::Values(Variant{Method::consistent, mixed, "mixed"},
-                                         Variant{Method::consistent, everything, "held"},
-                                         Variant{Method::consistent, mixed, "mixed_cell", Integration::cell}),
-                         [](const auto& param) { return param.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Conditions, ReactionsFromPotential,
+    testing::Values(Variant{Method::consistent, mixed, "mixed"}, Variant{Method::consistent, everything, "held"},
+                    Variant{Method::consistent, mixed, "mixed_cell", Integration::cell},
+                    Variant{Method::consistent, mixed, "mixed_second_order", Integration::second_order}),
+    [](const auto& param) { return param.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(AllFormulations, ForcesFromPotential, testing::ValuesIn(variants()),
                          [](const auto& param) { return param.param.name; });
@@ -182,6 +186,7 @@ INSTANTIATE_TEST_SUITE_P(AllFormulations, Conservation,
                          testing::Values(Kind{Method::delaunay}, Kind{Method::consistent}, Kind{Method::variational},
                                          Kind{Method::delaunay, Integration::cell},
                                          Kind{Method::consistent, Integration::cell},
+                                         Kind{Method::consistent, Integration::second_order},
                                          Kind{Method::variational, Integration::cell}),
                          [](const auto& param) { return name_of(param.param); });
 

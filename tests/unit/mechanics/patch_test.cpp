@@ -90,7 +90,8 @@ TEST_P(PatchTest, TractionsBalanceConstantStress) {
 INSTANTIATE_TEST_SUITE_P(ExactFormulations, PatchTest,
                          testing::Values(Kind{Method::delaunay}, Kind{Method::consistent}, Kind{Method::quasi_static},
                                          Kind{Method::delaunay, Integration::cell},
-                                         Kind{Method::consistent, Integration::cell}),
+                                         Kind{Method::consistent, Integration::cell},
+                                         Kind{Method::consistent, Integration::second_order}),
                          [](const auto& param) { return name_of(param.param); });
 
 /// With all faces prescribed the variational forces are those of [V 42], so tests A and B hold.

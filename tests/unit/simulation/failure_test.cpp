@@ -61,6 +61,7 @@ TEST(FailingRuns, SayWhichCellIsInverted) {
   for (Method method : all_methods) expect_inverted_cell(method, Integration::nodal);
   for (Method method : {Method::delaunay, Method::consistent, Method::variational})
     expect_inverted_cell(method, Integration::cell);
+  expect_inverted_cell(Method::consistent, Integration::second_order);
 }
 
 /// A step above the limit, forced: the highest modes grow from round-off.
