@@ -134,6 +134,15 @@ void join_planes(const Mesh& a, Mesh& b, double size) {
   }
 }
 
+/// Has every edge its corners, the next edge and a face? Where parts miss each other by less than any number can tell,
+/// pieces of the result may be missing.
+bool is_whole(const Mesh& mesh) {
+  const auto halfedges = mesh.halfedges();
+  return std::all_of(halfedges.begin(), halfedges.end(), [&](const Mesh::Halfedge_index h) {
+    return mesh.target(h).is_valid() && mesh.next(h).is_valid() && mesh.face(h).is_valid();
+  });
+}
+
 /// What is left of `a` and `b`; nothing when it is bounded by a surface that passes an edge more than once.
 std::optional<Mesh> combined(Boolean boolean, Mesh& a, Mesh& b) {
   Mesh result;
@@ -142,7 +151,7 @@ std::optional<Mesh> combined(Boolean boolean, Mesh& a, Mesh& b) {
   const bool is_sound = boolean == Boolean::unite      ? pmp::corefine_and_compute_union(a, b, result, carrying)
                         : boolean == Boolean::subtract ? pmp::corefine_and_compute_difference(a, b, result, carrying)
                                                        : pmp::corefine_and_compute_intersection(a, b, result, carrying);
-  if (!is_sound) return std::nullopt;
+  if (!is_sound || !is_whole(result)) return std::nullopt;
   return result;
 }
 
@@ -165,8 +174,8 @@ Mesh evaluate(SurfaceTree& tree, const AffineMap& outer) {
     std::optional<Mesh> result = combined(tree.boolean, mesh, part);
     if (!result)
       throw InputError(tree.parts[p].origin,
-                       "touches what comes before it along an edge only, so that it cannot be said what is inside "
-                       "there; let the shapes overlap, share part of a face, or keep them apart");
+                       "touches what comes before it along an edge only, or nearly so, so that it cannot be said what "
+                       "is inside there; let the shapes overlap, share part of a face, or keep them apart");
     mesh = std::move(*result);
     if (mesh.number_of_faces() == 0 && tree.boolean != Boolean::unite)
       throw InputError(tree.parts[p].origin, tree.boolean == Boolean::subtract

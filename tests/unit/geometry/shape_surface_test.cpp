@@ -225,6 +225,19 @@ TEST(ShapeSurface, BooleansThatCannotBe) {
                   "an edge only");
 }
 
+// Parts miss each other by round-off; pieces of the result were missing, which ended the program.
+TEST(ShapeSurface, ResultsWithMissingPiecesAreRefused) {
+  const Shape l = polygon({{0, 0}, {0.5, 0}, {0.5, 0.1}, {0.1, 0.1}, {0.1, 0.4}, {0, 0.5}}, 0.3, -0.1);
+  const auto ring = [](const Vec3& center, const Vec3& axis) {
+    return Shape{"", test::somewhere(), TorusShape{center, axis, 0.3, 0.1, 0.01}};
+  };
+  const Shape rest = difference_of({l, ring({0.5, 0.2, -0.2}, {-0.8549, 0.2577, 0.7936}),
+                                    moved(l, {{1, 1, 1}, Rotation{{1, 1, 0}, 46.6049, {}}, {}})});
+  const Shape added =
+      union_of({box({0, -0.1, 0.25}, {0.01, -0.09000000000000001, 0.26}), ring({0.25, 0, 0.3}, {1, 0, 0})});
+  expect_contains(error_of(union_of({rest, added})), "or nearly so");
+}
+
 #else
 
 TEST(ShapeSurface, BooleansNeedMeshProcessing) {
