@@ -12,10 +12,11 @@ BEAM_BOUNDS = {
     ("consistent", "nodal"): ((0.028, 0.032, 0.028), (0.041, 0.016, 0.043)),
     ("delaunay", "cell"): ((0.007, 0.017, 0.030), (0.004, 0.008, 0.017)),
     ("consistent", "cell"): ((0.007, 0.080, 0.008), (0.008, 0.065, 0.009)),
+    ("consistent", "second-order"): ((0.004, 0.047, 0.004), (0.004, 0.059, 0.003)),
     ("variational", "nodal"): ((0.028, 0.032, 0.028), (0.064, 0.015, 0.065)),
 }
 POTENTIALS = [("delaunay", "nodal"), ("consistent", "nodal"), ("variational", "nodal"), ("delaunay", "cell"),
-              ("consistent", "cell"), ("variational", "cell")]
+              ("consistent", "cell"), ("variational", "cell"), ("consistent", "second-order")]
 CUBE = "spinning-cube/spinning-cube.toml"
 ROUND_OFF = 1e-4  # frequency of a zero mode over the highest
 

@@ -16,7 +16,7 @@ import runs
 MASS = {"free-beam": 6600.0, "l-block": 117e3, "spinning-cube": 1000.0}
 LOADED_UNTIL = {"free-beam": 0.0, "l-block": 5.0, "spinning-cube": 0.0}
 CONSERVING = ("delaunay", "consistent", "variational")
-INTEGRATED = (("delaunay", "cell"), ("consistent", "cell"), ("variational", "cell"))
+INTEGRATED = (("delaunay", "cell"), ("consistent", "cell"), ("variational", "cell"), ("consistent", "second-order"))
 MOMENTUM_BOUND = 1e-12
 ENERGY_BOUND = 1e-3
 

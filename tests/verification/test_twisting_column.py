@@ -14,7 +14,7 @@ CASE = "twisting-column/twisting-column.toml"
 LARGEST_TWIST = {0.3: 322.0, 0.45: 338.5}  # degrees
 # Formulation, integration, particles per metre.
 METHODS = [("delaunay", "nodal", 4), ("consistent", "nodal", 4), ("variational", "nodal", 4), ("delaunay", "cell", 8),
-           ("consistent", "cell", 8)]
+           ("consistent", "cell", 8), ("consistent", "second-order", 8)]
 
 
 def twist(history):
