@@ -24,7 +24,7 @@ def method(formulation, integration="nodal"):
     """Settings that choose a formulation by its name (voronoi ones by their boundary's)."""
     kind = {"method.formulation": "delaunay"} if formulation == "delaunay" else {
         "method.formulation": "voronoi", "method.boundary": formulation}
-    return kind if integration == "nodal" else kind | {"method.integration": integration}
+    return kind | {"method.integration": integration}
 
 
 def beam(condition, per_metre, jitter):

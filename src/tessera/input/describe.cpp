@@ -30,10 +30,10 @@ std::string heading(const Parameter& p) {
 std::string basic_presence(const Parameter& p) {
   if (p.presence == Presence::required) return "required";
   if (p.standard.empty()) return "optional";
-  std::string text = fmt::format("default {}", p.standard);
+  std::vector<std::string> others;
   for (const auto& [condition, standard] : p.standard_beside)
-    text += fmt::format(" ({} with {})", standard, input::condition_text(condition));
-  return text;
+    others.push_back(fmt::format("{} with {}", standard, input::condition_text(condition)));
+  return fmt::format("default {}{}", p.standard, others.empty() ? "" : fmt::format(" ({})", fmt::join(others, "; ")));
 }
 
 std::string presence_text(const Parameter& p) {

@@ -28,15 +28,6 @@ Rows method_rows() {
        .misplaced = Misplaced::ignored,
        .sentence = "How boundary faces of Voronoi cells move: one position a face, exact in patch tests and momenta; "
                    "[V 43], which conserves momenta; [V 42], which passes patch tests."},
-      {.key = "method.integration",
-       .kind = choice,
-       .presence = defaulted,
-       .choices = {"nodal", "cell", "second-order"},
-       .standard = "\"nodal\"",
-       .sentence =
-           "Where the strain energy is taken: nodal, at the mean deformation of each particle, as in the papers; "
-           "cell, at six points of each cell (not with quasi-static); second-order, the same with faces and points "
-           "that are exact for quadratic motion (voronoi consistent only)."},
       {.key = "method.volumetric",
        .kind = choice,
        .presence = defaulted,
@@ -44,6 +35,20 @@ Rows method_rows() {
        .standard = "\"standard\"",
        .sentence = "The change of volume that the law sees: each particle's own, or, for nearly incompressible solids, "
                    "the mean over it and its neighbours (with integration = \"nodal\" only)."},
+      {.key = "method.integration",
+       .kind = choice,
+       .presence = defaulted,
+       .choices = {"nodal", "cell", "second-order"},
+       .standard = "\"second-order\"",
+       .standard_beside = {{"volumetric=averaged", "\"nodal\""},
+                           {"formulation=delaunay", "\"cell\""},
+                           {"boundary=variational", "\"cell\""},
+                           {"boundary=quasi-static", "\"nodal\""}},
+       .sentence =
+           "Where the strain energy is taken: nodal, at the mean deformation of each particle, as in the papers; "
+           "cell, at six points of each cell (not with quasi-static); second-order, the same with faces and points "
+           "that are exact for quadratic motion (voronoi consistent only). The default is the most accurate that goes "
+           "with the other keys of [method]; nodal steps cost least."},
       {.key = "method.tetrahedra",
        .kind = choice,
        .presence = defaulted,

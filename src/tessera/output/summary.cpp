@@ -72,8 +72,7 @@ std::string to_json(const Summary& s) {
   for (const auto& [name, violation] : s.identities) json["identities"][name] = violation;
   json["quality"] = to_json(s.quality);
   json["step_control"] = {{"evaluations", s.step_control.evaluations}, {"limit", s.step_control.limit}};
-  if (s.integration)
-    json["integration"] = {{"kind", s.integration->kind}, {"unresolved_cells", s.integration->unresolved_cells}};
+  json["integration"] = {{"kind", s.integration.kind}, {"unresolved_cells", s.integration.unresolved_cells}};
   if (s.mass_scaling) json["mass_scaling"] = mass_scaling(*s.mass_scaling);
   json["max_force_residual"] = s.max_force_residual;
   // Names come from users: bytes that are no UTF-8 are replaced, not refused.
@@ -86,6 +85,13 @@ std::string mass_scaling_text(const MassScalingSummary& m) {
       "{:.3g} "
       "times as heavy); kinetic energy at most {:.2g}% of the energy after the first tenth of the run",
       m.step, 100.0 * m.added_share, m.particles, m.particle, m.body, m.largest_factor, 100.0 * m.kinetic_share);
+}
+
+std::string integration_text(const IntegrationSummary& integration, std::int64_t particles) {
+  if (integration.unresolved_cells == 0) return integration.kind;
+  const bool second = integration.kind == "second-order";
+  return fmt::format("{}; {} of {} cells, with too few neighbours in some direction, take {}", integration.kind,
+                     integration.unresolved_cells, particles, second ? "cell" : "nodal there");
 }
 
 void write_summary(const std::string& path, const Summary& summary) {

@@ -38,9 +38,9 @@ struct MassScalingSummary {
   double kinetic_share = 0.0;    // largest share of the kinetic energy after the first tenth of the run
 };
 
-/// How the strain energy of cells was integrated, where not at their mean deformation.
+/// How the strain energy of cells was integrated.
 struct IntegrationSummary {
-  std::string kind;                   // "cell" or "second-order"
+  std::string kind = "nodal";         // or "cell" or "second-order"
   std::int64_t unresolved_cells = 0;  // cell: without neighbours in some direction, along which F counts as constant;
                                       // second-order: that took cell integration
 };
@@ -67,7 +67,7 @@ struct Summary {
   std::map<std::string, double> identities;         // largest violation of each, relative
   Quality quality;                                  // of particles and cells
   StepControlSummary step_control;
-  std::optional<IntegrationSummary> integration;   // the key is left out without it
+  IntegrationSummary integration;
   std::optional<MassScalingSummary> mass_scaling;  // the key is left out without it
   double max_force_residual = 0.0;                 // largest |force| on a free particle at the end [N]
 };
@@ -75,8 +75,9 @@ struct Summary {
 /// The summary as JSON text. Numbers that are not finite become null.
 std::string to_json(const Summary& summary);
 
-/// The same for people, in one line.
+/// Parts of it for people, in one line.
 std::string mass_scaling_text(const MassScalingSummary& m);
+std::string integration_text(const IntegrationSummary& integration, std::int64_t particles);
 
 /// Replaces the file `path` by the summary. Throws RunError when it cannot be written.
 void write_summary(const std::string& path, const Summary& summary);

@@ -38,6 +38,7 @@ struct Findings {
   double volume = 0.0, shortest = 0.0, dt = 0.0, limit = 0.0, setup_seconds = 0.0, run_seconds = 0.0;
   double steps = 0.0;
   std::int64_t memory = 0;
+  IntegrationSummary integration;
   Identities identities;
   std::vector<SideRow> sides;
   Quality quality;
@@ -56,6 +57,7 @@ Findings examine(const Case& c) {
   f.constrained = static_cast<std::int64_t>(d.nodes.size() + d.constraints.size());
   f.volume = d.body_volume;
   f.shortest = model.system.shortest_length;
+  f.integration = integration_of(model);
   f.identities = model.identities;
   f.sides = model.sides;
   f.quality = model.quality;
@@ -81,6 +83,7 @@ std::string to_text(const Findings& f) {
       "particles        {}\nbonds            {}\nboundary faces   {} ({} faces or particles with prescribed motion)\n"
       "volume           {:.10g} m3\nshortest bond    {:.4g} m\n",
       f.particles, f.bonds, f.boundary_faces, f.constrained, f.volume, f.shortest);
+  text += fmt::format("integration      {}\n", integration_text(f.integration, f.particles));
   text += fmt::format("time step        {:.4g} s (spectral limit {:.4g} s)\nsteps            {:.0f}\n", f.dt, f.limit,
                       f.steps);
   text += fmt::format(
@@ -114,6 +117,7 @@ std::string to_json(const Findings& f) {
   j["constrained"] = f.constrained;
   j["volume"] = f.volume;
   j["shortest_bond"] = f.shortest;
+  j["integration"] = {{"kind", f.integration.kind}, {"unresolved_cells", f.integration.unresolved_cells}};
   j["dt"] = f.dt;
   j["dt_limit"] = f.limit;
   j["steps"] = f.steps;

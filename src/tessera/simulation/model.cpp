@@ -108,6 +108,13 @@ const BodyModel& Model::body(const std::string& name) const {
   throw std::logic_error("no body is called " + name);  // the reader has checked the names
 }
 
+IntegrationSummary integration_of(const Model& model) {
+  if (const auto& gradients = model.system.gradients) return {name_of(Integration::cell), gradients->unresolved};
+  if (const auto& second = model.system.second_order)
+    return {name_of(Integration::second_order), static_cast<std::int64_t>(second->unresolved.size())};
+  return {name_of(Integration::nodal), 0};
+}
+
 Model build_model(const Case& c) {
   Model model;
   for (const BodySpec& spec : c.bodies) model.conditions.push_back(conditions_on(c, spec));

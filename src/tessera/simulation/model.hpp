@@ -10,6 +10,7 @@
 #include "tessera/mechanics/system.hpp"
 #include "tessera/output/fields.hpp"
 #include "tessera/output/quality.hpp"
+#include "tessera/output/summary.hpp"
 #include "tessera/simulation/case.hpp"
 #include "tessera/simulation/side_table.hpp"
 
@@ -47,5 +48,8 @@ struct Model {
 
 /// Builds a case. Throws InputError and GeometryError.
 Model build_model(const Case& c);
+
+/// The integration that the model has, and where it is another.
+IntegrationSummary integration_of(const Model& model);
 
 }  // namespace tessera

@@ -103,6 +103,9 @@ Run::Run(const Case& c, const RunOptions& options) : case_(c), options_(options)
   recorder_.emplace(c, *model_, *engine_, options.directory, from);
   write_effective_case(c, options.directory);
   first_step_ = engine_->steps();
+  if (!options.quiet)
+    fmt::print(stderr, "tessera: note: method.integration is {}\n",
+               integration_text(integration_of(*model_), model_->system.particles()));
   const ProgressStyle style = options.quiet ? ProgressStyle::silent : progress_style(stderr);
   progress_.emplace(stderr, style, c.time.end, model_->system.particles(), engine_->time(), first_step_);
   checkpoint_timer_.emplace(c.output.checkpoint, engine_->time());
@@ -231,9 +234,7 @@ void Run::summarise(const std::string& status, const std::string& message) {
   s.identities = model_->identities;
   s.quality = model_->quality;
   s.step_control = {engine_->step_control().evaluations(), engine_->step_control().limit()};
-  if (const auto& gradients = model_->system.gradients) s.integration = {"cell", gradients->unresolved};
-  if (const auto& second = model_->system.second_order)
-    s.integration = {"second-order", static_cast<std::int64_t>(second->unresolved.size())};
+  s.integration = integration_of(*model_);
   if (engine_->mass_scaling()) s.mass_scaling = mass_scaling_summary();
   s.max_force_residual = engine_->largest_force();
   write_summary(summary_path(options_.directory), s);

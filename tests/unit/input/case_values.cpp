@@ -326,6 +326,20 @@ TEST(Case, TakesMovesOfShapes) {
     EXPECT_EQ(angle(fmt::format("\"{} deg\"", whole)), whole);
 }
 
+TEST(Integration, DefaultIsTheMostAccurateThatGoesWithTheMethod) {
+  const auto with = [](std::vector<std::string> overrides) {
+    return sample::read(smallest, overrides).method.integration;
+  };
+  EXPECT_EQ(with({}), Integration::second_order);
+  EXPECT_EQ(with({"method.boundary=variational"}), Integration::cell);
+  EXPECT_EQ(with({"method.boundary=quasi-static"}), Integration::nodal);
+  EXPECT_EQ(with({"method.formulation=delaunay"}), Integration::cell);
+  EXPECT_EQ(with({"method.formulation=delaunay", "method.boundary=quasi-static"}), Integration::cell);
+  EXPECT_EQ(with({"method.volumetric=averaged"}), Integration::nodal);
+  EXPECT_EQ(with({"method.volumetric=averaged", "method.formulation=delaunay"}), Integration::nodal);
+  EXPECT_EQ(with({"method.integration=nodal"}), Integration::nodal);
+}
+
 TEST(EffectiveCase, ReadsBackToTheSameCase) {
   const std::vector<std::string> texts = {
       sample::text,

@@ -45,6 +45,9 @@ TEST(Describe, ShowsUnitRangeAndDefault) {
             "material.density\n    Density in the reference state.\n"
             "    a density in kg/m3, as in \"1000 kg/m3\" or 1000; allowed: > 0; required\n");
   EXPECT_TRUE(contains(describe_key("time.safety"), "allowed: > 0 and <= 1; default 0.8 (0.3 with step = \"auto\")"));
+  EXPECT_TRUE(
+      contains(describe_key("method.integration"),
+               "default \"second-order\" (\"nodal\" with volumetric = \"averaged\"; \"cell\" with formulation = "));
 }
 
 TEST(Describe, TakesSectionsNumbersAndEndsOfKeys) {

@@ -37,11 +37,28 @@ Summary example() {
 
 TEST(Summary, HoldsEveryKey) {
   const auto json = nlohmann::json::parse(to_json(example()));
-  for (const char* key : {"version", "case", "status", "particles", "bonds", "boundary_faces", "steps", "dt", "time",
-                          "wall_seconds", "particle_steps_per_second", "peak_memory_bytes", "energy", "momentum",
-                          "errors", "identities", "max_force_residual", "step_control", "quality"})
+  for (const char* key : {"version",
+                          "case",
+                          "status",
+                          "particles",
+                          "bonds",
+                          "boundary_faces",
+                          "steps",
+                          "dt",
+                          "time",
+                          "wall_seconds",
+                          "particle_steps_per_second",
+                          "peak_memory_bytes",
+                          "energy",
+                          "momentum",
+                          "errors",
+                          "identities",
+                          "max_force_residual",
+                          "step_control",
+                          "quality",
+                          "integration"})
     EXPECT_TRUE(json.contains(key)) << key;
-  EXPECT_EQ(json.size(), 19u);
+  EXPECT_EQ(json.size(), 20u);
   EXPECT_EQ(json["dt"].get<double>(), 1.0 / 3.0);
   EXPECT_EQ(json["wall_seconds"],
             (nlohmann::json{{"setup", 1.0}, {"steps", 2.0}, {"time_step", 0.5}, {"output", 3.0}}));
