@@ -98,6 +98,19 @@ plot {", ".join(plots)}""", size=(900, 460))
         self.draw_cost(case, densities, "accuracy-cantilever.png", "error of the path over 0..1 s")
         return self.errors_and_cost(case, densities, self.methods)
 
+    def clamp(self):
+        """Error of the path, uniform regular particles and twice as fine along the beam near the clamp."""
+        uniform, graded = cases.Cantilever(self.store), cases.GradedCantilever(self.store)
+        rows = []
+        for method in [m for m in self.methods if m[0] == "consistent"]:
+            cells = []
+            for n in self.densities(4, 8):
+                for case in (uniform, graded):
+                    run = case.result(method, n, 0.0)
+                    cells.append(f"{percent(case.error(method, n, 0.0))} ({run.particles})" if run.done else "fails")
+            rows.append([cases.name_of(method), *cells])
+        return table(["error (particles)", "4 per metre", "finer at the clamp", "8 per metre", "finer at the clamp"], rows)
+
     def others(self):
         """RMS error of x3 at 4 and 8 per metre, beside other programs."""
         case = cases.Cantilever(self.store)
@@ -130,6 +143,18 @@ plot {", ".join(plots)}""", size=(900, 460))
             text += self.errors_and_cost(case, self.densities(2, 4, 8, 16), self.main_methods) + "\n"
         return text
 
+    def spinning_cube(self):
+        case, densities = cases.SpinningCube(self.store), self.densities(4, 8, 16)
+        head = ["", *(f"{n} per metre" for n in densities), "changes at the last: angular momentum, energy"]
+        rows = []
+        for method in self.main_methods:
+            for jitter in JITTERS:
+                errors = [percent(case.error(method, n, jitter)) for n in densities]
+                done = case.result(method, densities[-1], jitter).done
+                changes = ", ".join(f"{c:.0e}" for c in case.changes(method, densities[-1], jitter)) if done else "–"
+                rows.append([f"{cases.name_of(method)}, {kind(jitter)}", *errors, changes])
+        return table(head, rows)
+
     def l_block(self):
         case, densities = cases.LBlock(self.store), (1, 2, 4) if self.largest > 8 else (1, 2)
         head = ["", *(f"{n} per metre: drift, energy" for n in densities)]
@@ -158,13 +183,16 @@ plot {", ".join(plots)}""", size=(900, 460))
         return self.store.modes(name, modes.BEAM, settings, modes.ENOUGH[condition])
 
     def modes(self):
-        """Errors of the frequencies at 4 per metre."""
+        """Errors of the frequencies at 4 and 8 per metre."""
+        return "\n".join(f"At {n} per metre:\n\n{self.modes_at(n)}" for n in self.densities(4, 8))
+
+    def modes_at(self, per_metre):
         head = ["", "free: bending", "torsion", "second bending", "clamped: bending", "torsion", "second bending",
                 "stable step"]
         rows = []
         for method in self.methods:
             for jitter in JITTERS:
-                found = {c: self.beam_modes(method, 4, jitter, c) for c in ("free", "fixed")}
+                found = {c: self.beam_modes(method, per_metre, jitter, c) for c in ("free", "fixed")}
                 errors = [e for c in found for e in modes.errors(found[c], c).values()]
                 rows.append([f"{cases.name_of(method)}, {kind(jitter)}", *map(signed, errors),
                              f"{modes.relative_step(found['free']):.2f}"])
@@ -205,8 +233,8 @@ plot {", ".join(plots)}""", size=(900, 460))
         return table(head, rows)
 
 
-BLOCKS = ("cantilever", "others", "modes", "swinging_cube", "twisting_column", "l_block", "cook", "masses",
-          "contact")
+BLOCKS = ("cantilever", "clamp", "others", "modes", "swinging_cube", "twisting_column", "spinning_cube", "l_block", "cook",
+          "masses", "contact")
 
 
 def replace(text, name, content):

@@ -4,7 +4,6 @@
     TESSERA=build/release/bin/tessera scripts/figures/twisting_column.py
 """
 
-import math
 import pathlib
 import subprocess
 import sys
@@ -15,22 +14,11 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tests" / "verification"))
 
 import runs  # noqa: E402
+from test_twisting_column import CASE, twist  # noqa: E402
 
 EXAMPLE = runs.EXAMPLES / "twisting-column"
-CASE = "twisting-column/twisting-column.toml"
 TIMES = (0, 0.025, 0.05, 0.075, 0.1, 0.15, 0.2)  # of the pictures [s]
 DENSITIES = (2, 4, 8)
-
-
-def twist(history):
-    """Angle by which the free end has turned [degrees], unwrapped."""
-    angles, turns = [], 0
-    for x, y, cx, cy in zip(*(history[name] for name in ("corner.x", "corner.y", "end.x", "end.y"))):
-        angle = math.degrees(math.atan2(y - cy, x - cx)) - 45.0
-        if angles:
-            turns = round((angles[-1] - angle) / 360.0)
-        angles.append(angle + 360.0 * turns)
-    return angles
 
 
 def draw_bodies():

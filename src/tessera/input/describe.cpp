@@ -44,7 +44,10 @@ std::string presence_text(const Parameter& p) {
 }
 
 std::string row_text(const Parameter& p) {
-  return fmt::format("{}\n    {}\n    {}; {}\n", heading(p), p.sentence, input::expectation(p), presence_text(p));
+  std::string meanings;
+  for (const std::string& meaning : p.meanings) meanings += fmt::format("      {}\n", meaning);
+  return fmt::format("{}\n    {}\n{}    {}; {}\n", heading(p), p.sentence, meanings, input::expectation(p),
+                     presence_text(p));
 }
 
 std::string quantities_text() {
@@ -70,8 +73,10 @@ std::string section_markdown(const Parameter& p) {
 }
 
 std::string row_markdown(const Parameter& p) {
+  std::string sentence = p.sentence;
+  for (const std::string& meaning : p.meanings) sentence += "<br>" + meaning;
   return fmt::format("| `{}` | {} | {} | {} |\n", p.key, cell(input::expectation(p)), cell(presence_text(p)),
-                     cell(p.sentence));
+                     cell(sentence));
 }
 
 std::string without_numbers(const std::string& key) {

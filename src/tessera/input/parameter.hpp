@@ -67,7 +67,8 @@ struct Parameter {
   Dimension dimension = {};
   Range range = {};
   std::vector<std::string> choices = {};
-  std::string standard = {};  // the default, as TOML
+  std::vector<std::string> meanings = {};  // of the choices, where the sentence does not say all: "nodal: at ..."
+  std::string standard = {};               // the default, as TOML
   // Conditions as in only_with, and the default beside each of them.
   std::vector<std::pair<std::string, std::string>> standard_beside = {};
   std::string flat = {};                    // with dimension = 2, as TOML: the third component, or the default

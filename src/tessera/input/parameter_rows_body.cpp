@@ -123,11 +123,10 @@ std::vector<std::string> of_young() {
   return {"model=neo-hookean", "model=saint-venant-kirchhoff", "model=j2-plasticity"};
 }
 
-std::string models_in_words() {
-  std::string text = "The law:";
-  for (const MaterialModel& m : material_models())
-    text += fmt::format("{} {}, {}", &m == material_models().data() ? "" : ";", m.name, m.sentence);
-  return text + ".";
+std::vector<std::string> models_in_words() {
+  std::vector<std::string> meanings;
+  for (const MaterialModel& m : material_models()) meanings.push_back(fmt::format("{}: {}", m.name, m.sentence));
+  return meanings;
 }
 
 std::vector<std::string> model_names() {
@@ -149,8 +148,9 @@ Rows material_rows() {
        .kind = choice,
        .presence = defaulted,
        .choices = model_names(),
+       .meanings = models_in_words(),
        .standard = "\"neo-hookean\"",
-       .sentence = models_in_words()},
+       .sentence = "The law."},
       {.key = "material.young",
        .kind = number,
        .presence = required,

@@ -39,16 +39,18 @@ Rows method_rows() {
        .kind = choice,
        .presence = defaulted,
        .choices = {"nodal", "cell", "second-order"},
+       .meanings = {"nodal: at the mean deformation of each particle, as in the papers",
+                    "cell: at six points of each cell (not with quasi-static)",
+                    "second-order: the same with faces and points that are exact for quadratic motion (voronoi "
+                    "consistent only)"},
        .standard = "\"second-order\"",
        .standard_beside = {{"volumetric=averaged", "\"nodal\""},
                            {"formulation=delaunay", "\"cell\""},
                            {"boundary=variational", "\"cell\""},
                            {"boundary=quasi-static", "\"nodal\""}},
        .sentence =
-           "Where the strain energy is taken: nodal, at the mean deformation of each particle, as in the papers; "
-           "cell, at six points of each cell (not with quasi-static); second-order, the same with faces and points "
-           "that are exact for quadratic motion (voronoi consistent only). The default is the most accurate that goes "
-           "with the other keys of [method]; nodal steps cost least."},
+           "Where the strain energy is taken. The default is the most accurate that goes with the other keys of "
+           "[method]; nodal steps cost least."},
       {.key = "method.tetrahedra",
        .kind = choice,
        .presence = defaulted,

@@ -35,6 +35,7 @@ TEST(Describe, ShowsEveryKey) {
   for (const input::Parameter& p : input::parameters()) {
     EXPECT_TRUE(contains(text, p.key)) << p.key;
     EXPECT_TRUE(contains(text, p.sentence)) << p.key;
+    for (const std::string& meaning : p.meanings) EXPECT_TRUE(contains(text, meaning) && contains(markdown, meaning));
     EXPECT_TRUE(contains(markdown, p.key)) << p.key;
   }
   EXPECT_TRUE(contains(text, "von_mises [Pa]"));
