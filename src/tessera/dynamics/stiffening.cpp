@@ -1,5 +1,6 @@
 #include "tessera/dynamics/stiffening.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include "tessera/dynamics/vectors.hpp"
@@ -28,6 +29,7 @@ double modulus(const Law& law, const Forces& forces, std::int64_t a) {
 }  // namespace
 
 void Stiffening::remember(const Forces& forces) {
+  smallest_J_ = forces.sums().smallest_J;
   for_each_law(system_, [&](const auto& law, Index begin, Index end) {
     parallel::for_ranges(begin, end, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t a = first; a < last; ++a) moduli_[static_cast<std::size_t>(a)] = modulus(law, forces, a);
@@ -36,6 +38,27 @@ void Stiffening::remember(const Forces& forces) {
 }
 
 double Stiffening::growth(const Forces& forces) const {
+  const double means = growth_of_means(forces);
+  if (forces.stress_points() == 1) return means;
+  const double others = static_cast<double>(forces.stress_points() - 1);
+  return std::max(means, (others * means + growth_when_squeezed(forces.sums().smallest_J)) / (others + 1.0));
+}
+
+/// Of a point squeezed in one direction from the smallest J that is remembered to this one, the largest of all laws.
+double Stiffening::growth_when_squeezed(double J) const {
+  double growth = 0.0;
+  const PlasticState untouched;
+  for (const Material& m : system_.materials)
+    growth = std::max(growth, std::visit(
+                                  [&](const auto& law) {
+                                    return wave_modulus(law, diagonal(J, 1, 1), &untouched) /
+                                           wave_modulus(law, diagonal(smallest_J_, 1, 1), &untouched);
+                                  },
+                                  m.law));
+  return growth;
+}
+
+double Stiffening::growth_of_means(const Forces& forces) const {
   Largest largest;
   for_each_law(system_, [&](const auto& law, Index begin, Index end) {
     largest += Largest{largest_of(end - begin, [&](std::int64_t i) {

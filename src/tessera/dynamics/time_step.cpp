@@ -198,13 +198,14 @@ double StepControl::next(double time) const {
 }
 
 StepControl::Keepsake StepControl::keepsake() const {
-  return {memory_, estimator_.memory(), stiffening_ ? stiffening_->moduli() : std::vector<double>()};
+  if (!stiffening_) return {memory_, estimator_.memory(), {}};
+  return {memory_, estimator_.memory(), stiffening_->moduli(), stiffening_->smallest_J()};
 }
 
 void StepControl::restore(Keepsake keepsake) {
   memory_ = keepsake.memory;
   estimator_.restore(std::move(keepsake.estimator));
-  if (stiffening_) stiffening_->restore(std::move(keepsake.moduli));
+  if (stiffening_) stiffening_->restore(std::move(keepsake.moduli), keepsake.smallest_J);
 }
 
 }  // namespace tessera

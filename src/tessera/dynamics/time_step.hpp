@@ -53,6 +53,7 @@ class StepControl {
     Memory memory;
     SpectralEstimator::Memory estimator;
     std::vector<double> moduli;
+    double smallest_J = 1.0;  // at the last estimate
   };
   Keepsake keepsake() const;
   void restore(Keepsake keepsake);

@@ -90,7 +90,7 @@ Checkpoint Engine::checkpoint() const {
   c.arrays["plastic"] = flat(state_.plastic);
   c.arrays["initial_position"] = flat(x0_.data(), x0_.size());
   c.arrays["time"] = {time_, dt_.before, dt_.after, model_.loads.motion.time()};
-  c.arrays["step_control"] = {step.dt, step.limit, step.growth, step.smallest_J};
+  c.arrays["step_control"] = {step.dt, step.limit, step.growth, step.smallest_J, control.smallest_J};
   c.arrays["energy"] = {books.accounts[0], books.accounts[1],      books.accounts[2], initial_energy_,
                         energy_scale_,     largest_kinetic_share_, largest_contact_,  largest_strain_};
   c.arrays["initial_momentum"] = flat({initial_momentum_.linear, initial_momentum_.angular});
@@ -130,12 +130,13 @@ void Engine::restore(const Checkpoint& c) {
   dt_ = {time[1], time[2]};
   step_ = step[0];
   started_ = step[1] != 0;
-  const std::vector<double>& limits = c.array("step_control", 4);
+  const std::vector<double>& limits = c.array("step_control", 5);
   const std::vector<std::int64_t>& intervals = c.integer("step_control", 5);
   control_.restore(
       {{limits[0], limits[1], limits[2], limits[3], intervals[0], intervals[1], intervals[2], intervals[3]},
        {vectors(c.array("spectral_vector")), intervals[4]},
-       c.array("watched_moduli")});
+       c.array("watched_moduli"),
+       limits[4]});
   initial_energy_ = energy[3];
   energy_scale_ = energy[4];
   largest_kinetic_share_ = energy[5];
