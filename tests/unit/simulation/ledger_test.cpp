@@ -89,6 +89,19 @@ std::vector<Sample> samples() {
     all.push_back({name + "viscosity", m, [](Case& c) { c.materials[0].viscosity = {0.2, 0.5}; }});
     all.push_back({name + "everything", m, everything});
   }
+  for (const auto& [name, integration] :
+       {std::pair{"consistent_cell_", Integration::cell}, {"consistent_second_order_", Integration::second_order}}) {
+    all.push_back(
+        {std::string(name) + "free", Method::consistent, [=](Case& c) { c.method.integration = integration; }});
+    all.push_back({std::string(name) + "viscosity", Method::consistent, [=](Case& c) {
+                     c.method.integration = integration;
+                     c.materials[0].viscosity = {0.2, 0.5};
+                   }});
+    all.push_back({std::string(name) + "everything", Method::consistent, [=](Case& c) {
+                     c.method.integration = integration;
+                     everything(c);
+                   }});
+  }
   all.push_back({"variational_free", Method::variational, [](Case&) {}});
   all.push_back({"variational_viscosity", Method::variational, [](Case& c) { c.materials[0].viscosity = {0.2, 0.5}; }});
   return all;
@@ -99,8 +112,13 @@ INSTANTIATE_TEST_SUITE_P(All, LedgerCloses, testing::ValuesIn(samples()),
 
 /// Free bodies keep their momenta; viscosity changes neither.
 TEST(Momentum, OfFreeBodiesStays) {
-  for (Method method : {Method::delaunay, Method::consistent, Method::variational}) {
+  for (const auto& [method, integration] : {std::pair{Method::delaunay, Integration::nodal},
+                                            {Method::consistent, Integration::nodal},
+                                            {Method::variational, Integration::nodal},
+                                            {Method::consistent, Integration::cell},
+                                            {Method::consistent, Integration::second_order}}) {
     Case c = cube_case(method);
+    c.method.integration = integration;
     c.materials[0].viscosity = {0.1, 0.1};
     c.initial = {initial_velocity(formulas("1+0.5*Y", "-2*Z", "0.8*X*Y"))};
     Running run(c);
