@@ -64,7 +64,7 @@ PointSet place_lattice_in(const LatticeSpec& spec, const Origin& origin, const S
   const Vec3& h = set.lattice->spacing;
   const double depth = kLeastDepth * std::min({h.x, h.y, h.z});
   const auto is_fine = [&](const Vec3& X) {
-    return index.location(X) == Location::inside && index.nearest(X).distance >= depth;
+    return index.location(X) == Location::inside && !index.is_nearer_than(depth, X);
   };
   std::vector<char> is_taken(set.points.size(), 0);
   parallel::for_each(static_cast<std::int64_t>(set.points.size()), [&](std::int64_t i) {

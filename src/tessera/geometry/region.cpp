@@ -26,12 +26,20 @@ Cover::Cover(const Region& region, double width, double depth) : region_(region)
   blocks_ = rows.value;
 }
 
-std::optional<Vec3> Cover::point(std::int64_t block, std::uint64_t seed, std::uint64_t counter) const {
-  const Block& b = blocks_[static_cast<std::size_t>(block)];
-  Vec3 X = b.lower;
+Vec3 Cover::draw(std::int64_t block, std::uint64_t seed, std::uint64_t counter) const {
+  Vec3 X = blocks_[static_cast<std::size_t>(block)].lower;
   for (int d = 0; d < region_.dimension; ++d)
     X[d] += width_ * random_number(seed, 3 * counter + static_cast<std::uint64_t>(d));
-  if (b.is_inside || region_.is_deep(X, depth_)) return X;
+  return X;
+}
+
+bool Cover::is_in_region(std::int64_t block, const Vec3& X) const {
+  return blocks_[static_cast<std::size_t>(block)].is_inside || region_.is_deep(X, depth_);
+}
+
+std::optional<Vec3> Cover::point(std::int64_t block, std::uint64_t seed, std::uint64_t counter) const {
+  const Vec3 X = draw(block, seed, counter);
+  if (is_in_region(block, X)) return X;
   return std::nullopt;
 }
 

@@ -31,7 +31,11 @@ class Cover {
 
   std::int64_t size() const { return static_cast<std::int64_t>(blocks_.size()); }
   bool is_empty() const { return blocks_.empty(); }
-  /// The random point number `counter` of a block; nothing when that is not in the region.
+  /// The random point number `counter` of a block, in the region or not.
+  Vec3 draw(std::int64_t block, std::uint64_t seed, std::uint64_t counter) const;
+  /// Is X, which lies in the block, in the region and deep enough?
+  bool is_in_region(std::int64_t block, const Vec3& X) const;
+  /// What draw() gives; nothing when that is not in the region.
   std::optional<Vec3> point(std::int64_t block, std::uint64_t seed, std::uint64_t counter) const;
 
  private:

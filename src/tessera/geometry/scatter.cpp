@@ -15,6 +15,7 @@ constexpr double kBlockWidth = 2.0;      // of the blocks that points are drawn 
 constexpr double kFirstDistance = 0.92;  // of discs, in spacings; more find no room for all
 constexpr double kShrink = 0.98;
 constexpr std::int64_t kDartsPerPoint = 20;
+constexpr std::int64_t kDartsAtOnce = 1 << 17;
 constexpr int kMostRounds = 230;  // the distance is then a hundredth of the first one
 constexpr int kSamplesPerPoint = 8;
 constexpr double kMostCells = 5e7;
@@ -57,12 +58,12 @@ class Discs {
   }
 
   bool has_room(const Vec3& X, double distance) const {
-    const auto home = cell_of(X);
+    const Cell home = cell_of(X);
+    if (!is_clear(home, X, distance)) return false;  // the likeliest
     for (std::int64_t k = std::max<std::int64_t>(home[2] - 1, 0); k <= std::min(home[2] + 1, cells_[2] - 1); ++k)
       for (std::int64_t j = std::max<std::int64_t>(home[1] - 1, 0); j <= std::min(home[1] + 1, cells_[1] - 1); ++j)
         for (std::int64_t i = std::max<std::int64_t>(home[0] - 1, 0); i <= std::min(home[0] + 1, cells_[0] - 1); ++i)
-          for (Index p = first_[number({i, j, k})]; p >= 0; p = next_[static_cast<std::size_t>(p)])
-            if (norm2(points[static_cast<std::size_t>(p)] - X) < distance * distance) return false;
+          if (!is_clear({i, j, k}, X, distance)) return false;
     return true;
   }
   void add(const Vec3& X) {
@@ -76,6 +77,11 @@ class Discs {
 
  private:
   using Cell = std::array<std::int64_t, 3>;
+  bool is_clear(const Cell& cell, const Vec3& X, double distance) const {
+    for (Index p = first_[number(cell)]; p >= 0; p = next_[static_cast<std::size_t>(p)])
+      if (norm2(points[static_cast<std::size_t>(p)] - X) < distance * distance) return false;
+    return true;
+  }
   Cell cell_of(const Vec3& X) const {
     Cell cell{};
     for (int d = 0; d < 3; ++d) {
@@ -94,6 +100,21 @@ class Discs {
   Cell cells_{};
   std::vector<Index> first_, next_;  // of each cell; after each point
 };
+
+/// Of consecutive darts those that hit the region and find room among the discs there are, in their order. In parallel:
+/// what they do to each other is left to be seen.
+std::vector<Vec3> darts_with_room(const Discs& discs, double distance, const Cover& cover, std::uint64_t seed,
+                                  std::int64_t first, std::int64_t darts) {
+  auto rows = parallel::collect_rows<Vec3>(
+      static_cast<Index>(darts), [&](Index i, parallel::RowCollector<Vec3>& out) {
+        const auto dart = static_cast<std::uint64_t>(first + i);
+        const auto block =
+            static_cast<std::int64_t>(random_number(~seed, dart) * static_cast<double>(cover.size()));
+        const Vec3 X = cover.draw(block, seed, dart);
+        if (discs.has_room(X, distance) && cover.is_in_region(block, X)) out.add(X);
+      });
+  return std::move(rows.value);
+}
 
 /// A random point of the region and its weight.
 struct Sample {
@@ -173,14 +194,16 @@ std::vector<Vec3> scatter_discs(const RandomSpec& spec, const Origin& origin, co
   if (cover.is_empty()) refuse(origin, count, spacing);
   double distance = kFirstDistance * spacing;
   Discs discs(bounds(region.index.surface()), distance);
-  std::uint64_t dart = 0;
+  std::int64_t first = 0;
   for (int round = 0; round < kMostRounds; ++round, distance *= kShrink)
-    for (std::int64_t i = 0; i < kDartsPerPoint * count; ++i, ++dart) {
-      const auto block = static_cast<std::int64_t>(random_number(~spec.seed, dart) * static_cast<double>(cover.size()));
-      const auto X = cover.point(block, spec.seed, dart);
-      if (!X || !discs.has_room(*X, distance)) continue;
-      discs.add(*X);
-      if (static_cast<Index>(discs.points.size()) == count) return std::move(discs.points);
+    for (const std::int64_t end = first + kDartsPerPoint * count; first < end;) {
+      const std::int64_t darts = std::min(kDartsAtOnce, end - first);
+      for (const Vec3& X : darts_with_room(discs, distance, cover, spec.seed, first, darts)) {
+        if (!discs.has_room(X, distance)) continue;
+        discs.add(X);
+        if (static_cast<Index>(discs.points.size()) == count) return std::move(discs.points);
+      }
+      first += darts;
     }
   refuse(origin, count, spacing);
 }
