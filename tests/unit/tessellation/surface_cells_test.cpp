@@ -262,5 +262,20 @@ TEST(SurfaceCells, TurnWithTheBody) {
     EXPECT_NEAR(norm(here.interior[i].area), norm(there.interior[i].area), 1e-12);
 }
 
+/// Thin cells between particles that nearly coincide are mostly round-off of their distance from the origin; that is
+/// no crack in the surface.
+TEST(SurfaceCells, ThinCellsFarFromTheOriginClose) {
+  TriangleSurface points;
+  for (const double z : {0.3, 0.5 - 1e-7, 0.5, 0.5 + 1e-7, 0.7}) points.vertices.push_back({0.4, 0.6, z});
+  const Vec3 away{1000.3, 1700.7, -800.1};
+  const std::vector<Vec3> X = turned(points, 0.7, away).vertices;
+  const TriangleSurface surface = turned(box_surface({0, 0, 0}, {1, 1, 1}), 0.7, away);
+  Solid solid;
+  solid.volume = volume(surface);
+  const Residuals r = residuals(surface_cells(X, SurfaceIndex(surface)).cells, X, solid);
+  EXPECT_LE(r.closure, 1e-12);
+  EXPECT_LE(r.total, 1e-12);
+}
+
 }  // namespace
 }  // namespace tessera::test
