@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kRoundoffFace = 1e-14;  // of V^(2/3): faces smaller than this are round-off
 constexpr double kClosed = 1e-8;         // of the surface or volume: cells that miss more are wrong
+constexpr double kThin = 1e-10;          // of a cell's width: what faces that nearly coincide are off by
 constexpr double kFirstFence = 2.0;      // distance of the first fence, in spacings
 
 std::string named(const Generators& points, Index a) { return "particle " + points.named(a); }
@@ -309,7 +310,7 @@ class SurfaceAssembly {
   };
 
   /// Takes the volumes from the faces by the divergence theorem, so that they fit each other to the last digit, and
-  /// checks that every cell is closed. Thin cells far from the origin are known to round-off of their faces only.
+  /// checks that every cell is closed. The volume of a thin cell is known to round-off of its faces only.
   void close_cells() {
     std::vector<Balance> balances(points_.size());
     const auto add = [&](Index a, const Vec3& area, const Vec3& centroid) {
@@ -322,12 +323,15 @@ class SurfaceAssembly {
     for (const BoundaryFace& f : result_.cells.boundary) add(f.owner, f.area, f.centroid);
     for (std::size_t a = 0; a < points_.size(); ++a) {
       double& V = result_.cells.volume[a];
-      const double noise = round_off(static_cast<Index>(a)) * balances[a].surface;
-      if (norm(balances[a].area) > kClosed * balances[a].surface ||
-          std::abs(balances[a].volume - V) > kClosed * V + noise)
+      const double surface = balances[a].surface;
+      const double noise = std::max(round_off(static_cast<Index>(a)), kThin * std::sqrt(surface)) * surface;
+      if (norm(balances[a].area) > kClosed * surface || std::abs(balances[a].volume - V) > kClosed * V + noise)
         throw GeometryError("the Voronoi cell of " + named(points_, static_cast<Index>(a)) +
                             " does not close; does the surface cross itself there?");
       V = balances[a].volume;
+      if (!(V > 0.0))
+        throw GeometryError("the Voronoi cell of " + named(points_, static_cast<Index>(a)) +
+                            " is thinner than round-off; move the particle away from the surface and from others");
     }
   }
 

@@ -277,5 +277,27 @@ TEST(SurfaceCells, ThinCellsFarFromTheOriginClose) {
   EXPECT_LE(r.total, 1e-12);
 }
 
+/// Cells no thicker than a billionth of the spacing, whose volumes are known to a few digits: they still close, and all
+/// fill the solid.
+TEST(SurfaceCells, ThinCellsAtTheSurfaceClose) {
+  for (const double angle : {0.0, 0.3, 0.7, 1.1}) {
+    TriangleSurface points;
+    points.vertices = {{-0.2, 0, -0.2}, {0, 0, -0.25 + 2e-10}, {0, 0, -0.25 + 1e-9}, {0.1, 0.2, -0.25 + 5e-10}};
+    const std::vector<Vec3> X = turned(points, angle).vertices;
+    for (const TriangleSurface& straight :
+         {box_surface({-0.5, -0.5, -0.25}, {0.5, 0.5, 0.25}), torus_surface(0.2, 0.25, 12, 8)}) {
+      const TriangleSurface surface = turned(straight, angle);
+      const SurfaceIndex index(surface);
+      const auto outside = [&](const Vec3& Y) { return index.location(Y) != Location::inside; };
+      if (std::any_of(X.begin(), X.end(), outside)) continue;
+      Solid solid;
+      solid.volume = volume(surface);
+      const Residuals r = residuals(surface_cells(X, index).cells, X, solid);
+      EXPECT_LE(r.closure, 1e-12) << angle;
+      EXPECT_LE(r.total, 1e-12) << angle;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tessera::test
