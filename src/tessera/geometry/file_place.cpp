@@ -16,9 +16,9 @@ std::string locate(const std::string& path, PlaceUnit unit, std::int64_t place) 
 
 std::string read_whole_file(const std::string& path) {
   std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw GeometryError(path + ": cannot be read: it is a folder");
   if (!std::filesystem::is_regular_file(path, error))
-    throw GeometryError(path +
-                        ": cannot be read: no such file; paths count from the folder where the program is called");
+    throw GeometryError(path + ": cannot be read: no such file; paths in a case file count from its folder");
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   if (!stream.is_open()) throw GeometryError(path + ": cannot be read: check its permissions");
   std::string bytes(static_cast<std::size_t>(std::max<std::streamoff>(stream.tellg(), 0)), '\0');

@@ -105,14 +105,12 @@ class Discs {
 /// what they do to each other is left to be seen.
 std::vector<Vec3> darts_with_room(const Discs& discs, double distance, const Cover& cover, std::uint64_t seed,
                                   std::int64_t first, std::int64_t darts) {
-  auto rows = parallel::collect_rows<Vec3>(
-      static_cast<Index>(darts), [&](Index i, parallel::RowCollector<Vec3>& out) {
-        const auto dart = static_cast<std::uint64_t>(first + i);
-        const auto block =
-            static_cast<std::int64_t>(random_number(~seed, dart) * static_cast<double>(cover.size()));
-        const Vec3 X = cover.draw(block, seed, dart);
-        if (discs.has_room(X, distance) && cover.is_in_region(block, X)) out.add(X);
-      });
+  auto rows = parallel::collect_rows<Vec3>(static_cast<Index>(darts), [&](Index i, parallel::RowCollector<Vec3>& out) {
+    const auto dart = static_cast<std::uint64_t>(first + i);
+    const auto block = static_cast<std::int64_t>(random_number(~seed, dart) * static_cast<double>(cover.size()));
+    const Vec3 X = cover.draw(block, seed, dart);
+    if (discs.has_room(X, distance) && cover.is_in_region(block, X)) out.add(X);
+  });
   return std::move(rows.value);
 }
 

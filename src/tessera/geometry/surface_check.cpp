@@ -19,6 +19,15 @@ void refuse_empty(const FileSurface& file) {
         fmt::format("{}: holds no triangle that has an area: a surface that bounds a solid is expected", file.path));
 }
 
+void refuse_flatness(const FileSurface& file, const SurfaceRepairs& repairs) {
+  if (file.surface.triangles.empty())
+    throw GeometryError(fmt::format(
+        "{}: holds no triangle that has an area: {} are thinner than {:.3g}, which single precision leaves "
+        "undecided at the largest coordinate, all others lie on each other; a surface that bounds a solid is "
+        "expected",
+        file.path, repairs.flat_triangles, repairs.tolerance));
+}
+
 }  // namespace
 
 void refuse_bad_vertices(const FileSurface& file) {
@@ -42,7 +51,7 @@ CheckedSurface check_surface(FileSurface file, double tolerance) {
   repairs.tolerance = tolerance;
   weld_vertices(file.surface, repairs);
   drop_needless_triangles(file, repairs);
-  refuse_empty(file);
+  refuse_flatness(file, repairs);
   split_at_vertices_on_edges(file, repairs);
   weld_vertices(file.surface, repairs);
   refuse_holes(file);

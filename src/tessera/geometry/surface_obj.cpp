@@ -24,7 +24,7 @@ std::size_t find_word(const std::array<std::string_view, n>& words, std::string_
 class ObjReader {
  public:
   ObjReader(const std::string& path, std::string_view bytes)
-      : cursor_(path, bytes, '#'), builder_(path, PlaceUnit::line) {}
+      : cursor_(path, without_byte_order_mark(bytes), '#'), builder_(path, PlaceUnit::line) {}
 
   FileSurface read() {
     while (!cursor_.at_end()) read_statement();

@@ -32,7 +32,7 @@ Index read_index(TextCursor& cursor, Index vertices) {
 }  // namespace
 
 FileSurface read_off(const std::string& path, std::string_view bytes) {
-  TextCursor cursor(path, bytes, '#');
+  TextCursor cursor(path, without_byte_order_mark(bytes), '#');
   read_keyword(cursor);
   const std::size_t vertices = cursor.count("vertices", 5), faces = cursor.count("faces", 2);
   cursor.skip_line();  // the number of edges, which many programs leave zero

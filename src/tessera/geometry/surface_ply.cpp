@@ -168,7 +168,11 @@ class BodyReader {
                       "or damaged; write it again",
                       element.count, element.name, numbers_.bytes_left()));
     if (element.name == "vertex") return read_vertices(element);
-    if (element.name == "face") return read_faces(element);
+    if (element.name == "face") {
+      if (builder_.vertices() == 0 && element.count > 0)
+        numbers_.fail("no vertices are given above the faces: write the element \"vertex\" first");
+      return read_faces(element);
+    }
     if (element.name == "tristrips") numbers_.fail("triangle strips cannot be used: write triangles");
     for (std::size_t i = 0; i < element.count; ++i) read_one(element);
   }
@@ -252,7 +256,9 @@ FileSurface read_ply(const std::string& path, std::string_view bytes) {
   TextCursor cursor(path, bytes, 0);
   const Header header = read_header(cursor);
   if (!header.order) return read_body(path, header, TextNumbers{cursor});
-  const std::size_t body = std::min(cursor.position() + 1, bytes.size());  // behind the line end
+  const std::string_view rest = bytes.substr(cursor.position());
+  const std::size_t body =
+      bytes.size() - rest.size() + std::min<std::size_t>(rest.starts_with("\r\n") ? 2 : 1, rest.size());
   return read_body(path, header, BinaryNumbers{BinaryCursor(path, bytes, body, *header.order)});
 }
 

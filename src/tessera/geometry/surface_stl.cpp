@@ -31,7 +31,7 @@ void read_facet(TextCursor& cursor, FileSurfaceBuilder& builder, Index side) {
 }
 
 FileSurface read_text(const std::string& path, std::string_view bytes) {
-  TextCursor cursor(path, bytes, 0);
+  TextCursor cursor(path, without_byte_order_mark(bytes), 0);
   FileSurfaceBuilder builder(path, PlaceUnit::line);
   while (!cursor.at_end()) {
     cursor.expect("solid");
@@ -60,11 +60,13 @@ std::size_t announced_facets(const std::string& path, std::string_view bytes) {
 
 FileSurface read_binary(const std::string& path, std::string_view bytes) {
   const std::size_t facets = announced_facets(path, bytes);
-  if (bytes.size() != kHeader + kFacet * facets)
+  const std::size_t size = kHeader + kFacet * facets;
+  if (bytes.size() != size)
     throw GeometryError(
         fmt::format("{}81: {} triangles are announced, which take {} bytes, but the file has {}: it is "
-                    "truncated or damaged; write it again",
-                    path + ": byte ", facets, kHeader + kFacet * facets, bytes.size()));
+                    "{}; write it again",
+                    path + ": byte ", facets, size, bytes.size(),
+                    bytes.size() < size ? "truncated or damaged" : "damaged, or more was appended to it"));
   if (facets > static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3)
     throw GeometryError(fmt::format("{}: {} triangles are too many", path, facets));
   FileSurfaceBuilder builder(path, PlaceUnit::byte);
@@ -84,7 +86,8 @@ FileSurface read_binary(const std::string& path, std::string_view bytes) {
 /// A binary file may begin with "solid" too, so its size decides, and else whether there is a zero byte near the front.
 bool is_text(const std::string& path, std::string_view bytes) {
   if (bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * announced_facets(path, bytes)) return false;
-  return same_word(bytes.substr(0, 5), "solid") && bytes.substr(0, 512).find('\0') == std::string_view::npos;
+  return same_word(without_byte_order_mark(bytes).substr(0, 5), "solid") &&
+         bytes.substr(0, 512).find('\0') == std::string_view::npos;
 }
 
 }  // namespace

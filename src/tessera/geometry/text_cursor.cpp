@@ -21,6 +21,11 @@ double out_of_range(std::string_view word) { return std::strtod(std::string(word
 
 }  // namespace
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 bool same_word(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
@@ -67,7 +72,10 @@ std::string_view TextCursor::peek() {
 std::string_view TextCursor::word() {
   const std::string_view next = peek();
   word_line_ = line_;
-  if (next.empty()) fail("the file ends too early: it is truncated; write it again");
+  if (next.empty())
+    fail(bytes_.find('\n') == std::string_view::npos && bytes_.find('\r') != std::string_view::npos
+             ? "the file is one line: its lines end in carriage returns alone; write it again with line feeds"
+             : "the file ends too early: it is truncated; write it again");
   position_ += next.size();
   return next;
 }

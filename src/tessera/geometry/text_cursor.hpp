@@ -53,6 +53,9 @@ class TextCursor {
   std::int64_t line_ = 1, word_line_ = 1;
 };
 
+/// Without the mark that some editors put in front of a text to tell its encoding.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// The beginning of `text` as an error message may show it: in quotes, without control characters.
 std::string excerpt(std::string_view text);
 

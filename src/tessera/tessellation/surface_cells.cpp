@@ -165,8 +165,7 @@ class SurfaceAssembly {
   double round_off(Index a) const {
     const Vec3& X = point(a);
     const double size = std::cbrt(result_.cells.volume[static_cast<std::size_t>(a)]);
-    return 8.0 * std::numeric_limits<double>::epsilon() *
-           std::max({std::abs(X.x), std::abs(X.y), std::abs(X.z), size});
+    return 8.0 * std::numeric_limits<double>::epsilon() * std::max({std::abs(X.x), std::abs(X.y), std::abs(X.z), size});
   }
 
   /// What a face needs to be more than round-off [m2].

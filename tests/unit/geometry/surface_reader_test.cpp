@@ -237,6 +237,38 @@ TEST(SurfaceReader, FaultsNameLineAndWhatIsAllowed) {
   expect_contains(message_of<GeometryError>([] { read_surface("nowhere.stl"); }), "no such file");
 }
 
+TEST(SurfaceReader, FaultsSayWhatIsOdd) {
+  expect_contains(fault_of(read_stl, "solid a\rfacet normal 0 0 1\r"), "carriage returns alone");
+  expect_contains(fault_of(read_ply,
+                           "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+                           "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+                           "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n"),
+                  "f:9: no vertices are given above the faces");
+  expect_contains(fault_of(read_stl, binary_stl(ball_surface(1, 4, 4)) + "more"), "or more was appended to it");
+  expect_contains(message_of<GeometryError>([] { read_surface(TESSERA_SOURCE_DIR "/tests/data.stl"); }),
+                  "no such file");
+  expect_contains(message_of<GeometryError>([] { read_whole_file(data_path("")); }), "it is a folder");
+  expect_contains(message_of<GeometryError>([] { check_surface(read_off("f", "OFF\n0 0 0\n")); }), "no triangle");
+  const auto flat = [] { check_surface(read_obj("f", "v 0 0 0\nv 1 0 0\nv 3e38 0 0\nf 1 2 3\n")); };
+  expect_contains(message_of<GeometryError>(flat), "1 are thinner than 7");
+}
+
+TEST(SurfaceReader, PassesOverMarksAndLineEndsOfOtherSystems) {
+  const TriangleSurface ball = ball_surface(1.0, 3, 4);
+  const double exact = volume(check_surface(read_stl("f", text_stl(ball))).surface);
+  const std::string mark = "\xef\xbb\xbf";
+  EXPECT_EQ(volume(check_surface(read_stl("f", mark + text_stl(ball))).surface), exact);
+  EXPECT_EQ(volume(check_surface(read_obj("f", mark + obj(ball))).surface), exact);
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    std::string ply = binary_ply(ball, order);
+    const std::size_t end = ply.find("end_header");
+    for (std::size_t i = 0; i < ply.find("end_header") + 11; ++i)
+      if (ply[i] == '\n') ply.insert(i++, 1, '\r');
+    ASSERT_NE(ply.find("end_header"), end);
+    EXPECT_EQ(volume(check_surface(read_ply("f", ply)).surface), exact);
+  }
+}
+
 TEST(SurfaceReader, FaultsOfBinaryFilesNameTheByte) {
   std::string stl = binary_stl(ball_surface(1, 4, 4));
   stl.pop_back();
