@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import os
 import pathlib
 import re
@@ -297,7 +298,9 @@ class Surfaces(CliTest):
         process = subprocess.run([PROGRAM, "check", "case.toml", "--set", "body.1.shape.sphere.radius=1.6"],
                                  cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(process.returncode, INPUT)
-        self.assertIn('"pin" overlaps', process.stderr)
+        place = re.search(r'"pin" overlaps body "body" at \((.*), (.*), (.*)\) m', process.stderr)
+        self.assertIsNotNone(place, process.stderr)
+        self.assertLess(abs(math.hypot(*(float(x) for x in place.groups())) - 1.55), 0.06)
 
     def test_sizes_that_look_wrong(self):
         self.write_case('{ file = "part.off", units = "m", scale = 1 }')

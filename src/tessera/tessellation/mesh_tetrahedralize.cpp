@@ -28,16 +28,36 @@ std::string at(const Vec3& X) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", X
 constexpr const char* cure_of_radii =
     "the power cell of each is empty: make the radii more alike or the distances larger";
 
-void refuse_left_out_points(const TetrahedralMesh& mesh, const char* what_to_do) {
+std::string with_radius(const PointSet& set, std::size_t i) {
+  return fmt::format("particle {} at {} m, radius {:g} m", i, at(set.points[i]), set.radius[i]);
+}
+
+/// The particle in whose power cell X lies.
+std::size_t owner_of(const Vec3& X, const PointSet& set) {
+  const auto power = [&](std::size_t i) { return norm2(X - set.points[i]) - set.radius[i] * set.radius[i]; };
+  std::size_t owner = 0;
+  for (std::size_t i = 1; i < set.points.size(); ++i)
+    if (power(i) < power(owner)) owner = i;
+  return owner;
+}
+
+/// How a particle without a tetrahedron is called, and what is in its way.
+std::string left_out(const PointSet& set, std::size_t i) {
+  if (set.radius.empty()) return fmt::format("particle {} at {}", i, at(set.points[i]));
+  const std::size_t owner = owner_of(set.points[i], set);
+  return with_radius(set, i) + (owner == i ? "" : ", which lies in the power cell of " + with_radius(set, owner));
+}
+
+void refuse_left_out_points(const TetrahedralMesh& mesh, const PointSet& set) {
   std::vector<char> used(mesh.points.size(), 0);
   for (const Tetrahedron& t : mesh.tetrahedra)
     for (const Index v : t) used[static_cast<std::size_t>(v)] = 1;
   const auto first = std::find(used.begin(), used.end(), 0);
   if (first == used.end()) return;
   const auto i = static_cast<std::size_t>(first - used.begin());
-  throw GeometryError(fmt::format("{} of {} particles belong to no tetrahedron, first particle {} at {}: {}",
-                                  std::count(used.begin(), used.end(), 0), used.size(), i, at(mesh.points[i]),
-                                  what_to_do));
+  throw GeometryError(fmt::format("{} of {} particles belong to no tetrahedron, first {}: {}",
+                                  std::count(used.begin(), used.end(), 0), used.size(), left_out(set, i),
+                                  set.radius.empty() ? cure : cure_of_radii));
 }
 
 double volume_of(const TetrahedralMesh& mesh) {
@@ -75,7 +95,7 @@ TetrahedralMesh checked(const PointSet& set, const Solid& solid, std::vector<Tet
   mesh.tetrahedra = std::move(tetrahedra);
   for (Tetrahedron& t : mesh.tetrahedra) t = canonical(t);
   std::sort(mesh.tetrahedra.begin(), mesh.tetrahedra.end());
-  refuse_left_out_points(mesh, set.radius.empty() ? cure : cure_of_radii);
+  refuse_left_out_points(mesh, set);
   mesh.boundary = boundary_of(mesh, solid);
   refuse_wrong_volume(mesh, solid);
   for (const Side& side : solid.sides) mesh.side_names.push_back(side.names);

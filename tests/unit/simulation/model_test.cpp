@@ -63,7 +63,7 @@ TEST(SeveralBodies, MustNotOverlap) {
     c.bodies.back().origin.line = 21;
     const std::string message = message_of<InputError>([&] { build_model(c); });
     EXPECT_TRUE(contains(message, "case.toml:21")) << message;
-    EXPECT_TRUE(contains(message, "body \"other\" overlaps body \"cube\"")) << message;
+    EXPECT_TRUE(contains(message, "body \"other\" overlaps body \"cube\" at (0.95, 0.5, 0.5) m")) << message;
     // Bodies that touch share no volume.
     c.bodies[1] = box_body(method, "other", {1, 0, 0}, {2, 1, 1}, {2, 2, 2}, 0.0);
     EXPECT_NO_THROW(build_model(c));

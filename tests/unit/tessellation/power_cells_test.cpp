@@ -190,7 +190,10 @@ TEST(RegularTetrahedra, RefuseEmptyPowerCellsAndSplitLattices) {
   for (double& r : set.radius) r *= 1.5;
   const std::string message =
       message_of<GeometryError>([&] { tetrahedralize(set, solid, Tetrahedralization::automatic); });
-  expect_contains(message, "first particle 13 at (0.5, 0.5, 0.5)");
+  expect_contains(message,
+                  "first particle 13 at (0.5, 0.5, 0.5) m, radius 0 m, which lies in the power cell of particle 4 at "
+                  "(0.5, 0.5, 0) m, "
+                  "radius 0.75 m");
   expect_contains(message, "power cell of each is empty");
 }
 
