@@ -228,12 +228,10 @@ struct ConsistentReferenceForces {
     const double L = std::max(2.0 * std::abs(dot(N, Y)), 0.25 * std::cbrt(r.cells.volume[a]));
     const double k = 4.0 * norm(f.area) / L;
     const Vec3 u = D * (r.position(face, x, wall_positions) - x[a] - F[a] * Y);
-    const Vec3 u_n = dot(u, N) * N;
-    const Vec3 s =
-        D * (m.contact.normal * m.young * k * u_n + m.contact.tangential * m.shear_modulus() * k * (u - u_n));
-    hand_on_position(r, face, s);
-    particles[a] += s;
-    hand_on_strain(r, a, -1.0 * outer(s, Y));
+    const ReferenceBoundaryBond bond = reference_boundary_bond(m, k, D, N, u, F[a]);
+    hand_on_position(r, face, bond.dU_du);
+    particles[a] += bond.dU_du;
+    hand_on_strain(r, a, bond.dU_dF - outer(bond.dU_du, Y));
   }
 };
 

@@ -11,6 +11,8 @@
 
 namespace tessera::test {
 
+inline double size_of(const Mat3& m) { return std::sqrt(contract(m, m)); }
+
 /// Energy and derivatives of a bond as the papers write them, [D 7-11, 56-58].
 struct ReferenceBond {
   Vec3 dU_dx, dU_dy;
@@ -20,6 +22,26 @@ inline ReferenceBond reference_bond(double Kn, double Kt, const Vec3& x, const V
   const Vec3 n = normalized(x), u = x - y;
   const Vec3 u_n = dot(u, n) * n, u_t = u - u_n;
   return {Kn * u_n + Kt * u_t + ((Kn - Kt) * (dot(u, x) / norm2(x))) * u_t, -(Kn * u_n + Kt * u_t)};
+}
+
+/// Energy and derivatives of the bond between a particle and its constrained face, theory (14).
+struct ReferenceBoundaryBond {
+  double energy = 0.0;
+  Vec3 dU_du;
+  Mat3 dU_dF;  // through the normal, which turns with a face that is wholly held; at fixed u
+};
+
+/// `k` is 4 A / L, `u` the bond's displacement and `F` that of the particle.
+inline ReferenceBoundaryBond reference_boundary_bond(const Material& m, double k, const Mat3& D, const Vec3& N,
+                                                     const Vec3& u, const Mat3& F) {
+  const double Kn = m.contact.normal * m.young * k, Kt = m.contact.tangential * m.shear_modulus() * k;
+  const bool turns = size_of(identity() - D) < 1e-12;
+  const Vec3 n = turns ? normalized(F * N) : N;
+  const Vec3 u_n = dot(u, n) * n, u_t = u - u_n;
+  const Vec3 s = D * (Kn * u_n + Kt * u_t);
+  Mat3 slope;
+  if (turns) slope = ((Kn - Kt) * dot(u, n) / norm(F * N)) * outer(u_t, N);
+  return {0.5 * dot(u, s), s, slope};
 }
 
 /// P of [D 53], written with the inverse.
@@ -41,8 +63,6 @@ class Table {
   std::size_t n_;
   std::vector<T> values_;
 };
-
-inline double size_of(const Mat3& m) { return std::sqrt(contract(m, m)); }
 
 /// Positions of a smooth motion plus noise that no smooth motion has.
 template <class Motion>

@@ -274,13 +274,11 @@ class SecondOrderReference {
     const double L = std::max(2.0 * std::abs(dot(N, Y)), 0.25 * std::cbrt(body_.cells.volume[a]));
     const double k = 4.0 * norm(f.area) / L;
     const Vec3 u = D * (part(c, face) - part(x, a) - gradient(r.F, a) * Y);
-    const Vec3 u_n = dot(u, N) * N;
-    const Vec3 s =
-        D * (m_.contact.normal * m_.young * k * u_n + m_.contact.tangential * m_.shear_modulus() * k * (u - u_n));
-    r.contact += 0.5 * dot(u, s);
-    add(gc, face, s);
-    add(r.gx, a, -s);
-    add_gradient(gF, a, -1.0 * outer(s, Y));
+    const ReferenceBoundaryBond bond = reference_boundary_bond(m_, k, D, N, u, gradient(r.F, a));
+    r.contact += bond.energy;
+    add(gc, face, bond.dU_du);
+    add(r.gx, a, -bond.dU_du);
+    add_gradient(gF, a, bond.dU_dF - outer(bond.dU_du, Y));
   }
 
   const VoronoiBody& body_;

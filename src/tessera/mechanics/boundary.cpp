@@ -27,6 +27,20 @@ void for_each_owned(const System& s, Body&& body) {
 const BoundaryNode& node(const System& s, Index f) { return s.d.nodes[static_cast<std::size_t>(f)]; }
 const NodeMechanics& mechanics(const System& s, Index f) { return s.nodes[static_cast<std::size_t>(f)]; }
 
+/// Energy of a boundary bond and its derivatives.
+struct BoundaryBond {
+  double energy = 0.0;  // [J]
+  Vec3 dU_du;           // [N]
+  Vec3 dU_dw;           // with respect to w = F_a N, at fixed u [N m]
+};
+
+/// Theory, (14); u is the bond's displacement.
+BoundaryBond boundary_bond(const NodeMechanics& m, const Vec3& u, const Vec3& w) {
+  const double p = dot(u, w) / norm2(w);
+  const Vec3 pull = m.stiffness * u + (m.along_N * p) * w;
+  return {0.5 * dot(u, pull), pull, (m.along_N * p) * (u - p * w)};
+}
+
 }  // namespace
 
 void fill_boundary_nodes(const System& s, std::span<const Vec3> walls, Double4* x) {
@@ -61,12 +75,14 @@ double add_boundary_bonds(const System& s, Index k, const Double4* x, const Tens
     const BoundaryNode& n = node(s, g);
     const NodeMechanics& m = mechanics(s, g);
     const Vec3 u = to_vec3(x[s.particles() + g] - x[n.owner] - apply(to_kernel(F), m.X_af));
-    const Vec3 pull = m.stiffness * u;
-    const Double4 force = to_kernel(pull);
-    add_outer(T, force, (-1.0 / s.d.volume[static_cast<std::size_t>(n.owner)]) * m.X_af);
+    const BoundaryBond bond = boundary_bond(m, u, to_mat3(F) * n.N);
+    const double inverse_volume = 1.0 / s.d.volume[static_cast<std::size_t>(n.owner)];
+    const Double4 force = to_kernel(bond.dU_du);
+    add_outer(T, force, -inverse_volume * m.X_af);
+    add_outer(T, to_kernel(bond.dU_dw), inverse_volume * n.N);
     f += force;
     R[g] = -force;
-    energy += 0.5 * dot(u, pull);
+    energy += bond.energy;
   });
   return energy;
 }

@@ -1,8 +1,9 @@
 #include "tessera/mechanics/system.hpp"
 
-#include "tessera/mechanics/cubature.hpp"
-
 #include <algorithm>
+
+#include "tessera/discretization/rows.hpp"
+#include "tessera/mechanics/cubature.hpp"
 
 namespace tessera {
 
@@ -18,12 +19,14 @@ std::vector<MaterialRange> material_ranges(const std::vector<Index>& material_of
   return ranges;
 }
 
-/// Boundary bond, [V 30, 49, 50]: normal and tangential are meant with respect to the reference normal.
-NodeMechanics node_mechanics(const BoundaryNode& f, const Vec3& X_a, const Material& m) {
+/// Boundary bond (theory, 14). The normal of a face that is wholly held turns with the body, so that no rotation costs
+/// energy. Directions that are held one by one do not turn; nor do those of ghosts, [V 30, 49, 50].
+NodeMechanics node_mechanics(const BoundaryNode& f, const Vec3& X_a, const Material& m, BoundaryForce force) {
   const Mat3 NN = outer(f.N, f.N);
   const double Kn = m.contact.normal * m.young * f.area_over_length;
   const double Kt = m.contact.tangential * m.shear_modulus() * f.area_over_length;
-  return {f.X - X_a, f.D * (Kn * NN + Kt * (identity() - NN)) * f.D};
+  if (is_identity(f.D) && force == BoundaryForce::potential) return {f.X - X_a, Kt * identity(), Kn - Kt};
+  return {f.X - X_a, f.D * (Kn * NN + Kt * (identity() - NN)) * f.D, 0.0};
 }
 
 void group_owners(System& s) {
@@ -97,7 +100,8 @@ System make_system(Discretization d, std::vector<Material> materials, const std:
     s.mass[a] = s.materials[static_cast<std::size_t>(material_of[a])].density * s.d.volume[a];
   for (const BoundaryNode& f : s.d.nodes) {
     const auto a = static_cast<std::size_t>(f.owner);
-    s.nodes.push_back(node_mechanics(f, s.d.X[a], s.materials[static_cast<std::size_t>(material_of[a])]));
+    const Material& m = s.materials[static_cast<std::size_t>(material_of[a])];
+    s.nodes.push_back(node_mechanics(f, s.d.X[a], m, s.d.boundary_force));
   }
   group_owners(s);
   transpose_closure(s);

@@ -27,7 +27,8 @@ struct MaterialRange {
 /// A boundary node as the force calculation needs it.
 struct NodeMechanics {
   Vec3 X_af;       // reference position relative to the owner [m]
-  Mat3 stiffness;  // D (Kn N (x) N + Kt (I - N (x) N)) D of the boundary bond [N/m]
+  Mat3 stiffness;  // of the boundary bond, in directions that do not turn [N/m]
+  double along_N;  // what is added along the present direction of N, F_a N / |F_a N| [N/m]
 };
 
 /// How much of the force on boundary node `node` a particle (or a fully prescribed node) receives.

@@ -182,6 +182,66 @@ TEST_P(Conservation, DeformationGradientIsObjective) {
   EXPECT_NEAR(second.sums().internal, first.sums().internal, 1e-12 * first.sums().internal);
 }
 
+/// Bodies whose faces are all or partly held by a tool, or free.
+class HeldByTools : public testing::TestWithParam<Variant> {
+ protected:
+  const System s = system_of(
+      discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
+      rubber());
+
+  /// Positions in a wavy motion, with walls apart from it, so that boundary bonds are strained; all turned by Q.
+  State moved(const Mat3& Q) const {
+    State state = reference_state(s);
+    move(state, s, [&](const Vec3& X) { return Q * wavy(X); });
+    return state;
+  }
+  std::vector<Vec3> walls(const Mat3& Q) const {
+    return walls_of(s, [&](const Vec3& X) { return Q * (wavy(X) + Vec3{0.03 * X.y, -0.05, 0.04 * X.x}); });
+  }
+};
+
+/// A tool that turns a wholly held face by a right angle and more, together with the body, costs no energy.
+TEST_P(HeldByTools, EnergyKnowsNoRotation) {
+  ASSERT_FALSE(s.d.nodes.empty());
+  const Mat3 Q{{0, -1, 0, 0.6, 0, -0.8, 0.8, 0, 0.6}};
+  State state = moved(identity()), turned = moved(Q);
+  Forces first(s), second(s);
+  first.evaluate(state, {walls(identity()), {}, {}}, 0.0);
+  second.evaluate(turned, {walls(Q), {}, {}}, 0.0);
+  EXPECT_NEAR(second.sums().contact, first.sums().contact, 1e-12 * first.sums().contact);
+  double scale = 0.0;
+  for (const Vec3& r : first.reactions()) scale = std::max(scale, norm(r));
+  for (std::size_t f = 0; f < first.reactions().size(); ++f)
+    EXPECT_LT(norm(second.reactions()[f] - Q * first.reactions()[f]), 1e-12 * scale) << "node " << f;
+}
+
+/// The torque of the reactions is all that changes the body's angular momentum.
+TEST_P(HeldByTools, TorqueIsThatOfTheReactions) {
+  State state = moved(identity());
+  const std::vector<Vec3> tool = walls(identity());
+  Forces forces(s);
+  forces.evaluate(state, {tool, {}, {}}, 0.0);
+  Vec3 torque;
+  double size = 0.0;
+  for (std::size_t a = 0; a < s.d.X.size(); ++a) {
+    const Vec3 f = to_vec3(forces.total()[a]);
+    torque += cross(to_vec3(state.x[a]), f);
+    size += norm(f);
+  }
+  for (std::size_t f = 0; f < tool.size(); ++f) torque += cross(tool[f], forces.reactions()[f]);
+  EXPECT_LT(norm(torque), 1e-12 * size);
+}
+
+Mat3 bottom(const Vec3& C, const Vec3&) { return C.z < 1e-9 ? identity() : Mat3{}; }
+
+INSTANTIATE_TEST_SUITE_P(Consistent, HeldByTools,
+                         testing::Values(Variant{Method::consistent, bottom, "bottom"},
+                                         Variant{Method::consistent, everything, "held"},
+                                         Variant{Method::consistent, bottom, "bottom_cell", Integration::cell},
+                                         Variant{Method::consistent, bottom, "bottom_second_order",
+                                                 Integration::second_order}),
+                         [](const auto& param) { return param.param.name; });
+
 INSTANTIATE_TEST_SUITE_P(AllFormulations, Conservation,
                          testing::Values(Kind{Method::delaunay}, Kind{Method::consistent}, Kind{Method::variational},
                                          Kind{Method::delaunay, Integration::cell},
