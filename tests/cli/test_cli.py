@@ -142,6 +142,16 @@ class Usage(CliTest):
         self.write(CASE)
         self.check_fails(USAGE, "no result folder", arguments=["run", "case.toml", "--resume"])
 
+    def test_resumed_with_another_case(self):
+        self.write(CASE.replace("[[probe]]", 'checkpoint = { every = "5 ms" }\n[[probe]]', 1))
+        self.assertEqual(self.call("run", "case.toml").returncode, DONE)
+        resumed = self.call("run", "case.toml", "--resume", "--set", "time.end=0.012", "material.0.young=2e6")
+        self.assertEqual(resumed.returncode, DONE)
+        for line in ("material.0.young was 1000000, is 2000000", "time.end was 0.01, is 0.012"):
+            self.assertIn("note: goes on with another case than before: " + line, resumed.stderr)
+        self.assertNotIn("note: goes on", self.call("run", "case.toml", "--resume", "--set", "time.end=0.012",
+                                                           "material.0.young=2e6").stderr)
+
     def test_unknown_key_to_describe(self):
         self.check_fails(USAGE, 'did you mean "time.safety"?', arguments=["describe", "time.safty"])
 

@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "tessera/app/examples.hpp"
 #include "tessera/app/version.hpp"
 #include "tessera/base/text.hpp"
 #include "tessera/bench/bench.hpp"
+#include "tessera/input/case_changes.hpp"
 #include "tessera/input/case_file.hpp"
 #include "tessera/input/describe.hpp"
+#include "tessera/output/result_folder.hpp"
 #include "tessera/simulation/run.hpp"
 
 namespace tessera {
@@ -20,6 +24,16 @@ namespace {
 
 void print_notes(const CaseFile& file) {
   for (const std::string& line : file.unused) fmt::print(stderr, "tessera: note: {}\n", line);
+}
+
+/// A resumed run goes on with the case of today; what has changed since the results began may be meant or not.
+void print_changes(const CaseFile& file, const std::string& folder) {
+  const std::string path = effective_case_path(folder);
+  std::ifstream then(path, std::ios::binary);
+  if (!then) return;
+  const std::string before{std::istreambuf_iterator<char>(then), std::istreambuf_iterator<char>()};
+  for (const std::string& line : case_changes(before, path, file.value.effective))
+    fmt::print(stderr, "tessera: note: goes on with another case than before: {}\n", line);
 }
 
 std::string result_folder(const RunCommand& command) {
@@ -50,6 +64,7 @@ void execute(const RunCommand& command) {
   check_folder(command, folder);
   const CaseFile file = read_case_file(command.case_file, command.overrides);
   if (!command.quiet) print_notes(file);
+  if (command.resume && !command.quiet) print_changes(file, folder);
   RunOptions options;
   options.directory = folder;
   options.threads = command.threads;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tessera/base/text.hpp"
+#include "tessera/base/units.hpp"
 
 namespace tessera {
 
@@ -81,6 +82,13 @@ std::size_t end_of_number(const std::string& text, std::size_t i) {
   return std::max(i + 1, static_cast<std::size_t>(end - text.c_str()));
 }
 
+// A unit behind a number, as in "0.3 m"?
+bool is_unit_of_number(const std::string& text, std::size_t begin, const std::string& name) {
+  const std::size_t before = begin == 0 ? std::string::npos : text.find_last_not_of(' ', begin - 1);
+  return before != std::string::npos &&
+         (std::isdigit(static_cast<unsigned char>(text[before])) || text[before] == '.') && is_unit(name);
+}
+
 void check_name(const std::string& text, const Origin& origin, FormulaNames known, std::size_t begin, std::size_t end) {
   const std::string name = text.substr(begin, end - begin);
   const int position = static_cast<int>(begin);
@@ -88,6 +96,9 @@ void check_name(const std::string& text, const Origin& origin, FormulaNames know
   if (std::find(variables.begin(), variables.end(), name) != variables.end()) return;
   const auto calls = function_names();
   if (std::find(calls.begin(), calls.end(), name) == calls.end()) {
+    if (is_unit_of_number(text, begin, name))
+      fail(text, origin, position,
+           fmt::format("unknown name {}; numbers in formulas are in SI units and have none behind them", quoted(name)));
     auto names = variables;
     names.insert(names.end(), calls.begin(), calls.end());
     fail(text, origin, position,

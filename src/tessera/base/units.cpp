@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "tessera/base/text.hpp"
@@ -72,6 +74,33 @@ std::optional<Unit> find_unit(std::string_view name) {
     }
   }
   return std::nullopt;
+}
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+/// Do the words agree but for capitals? The number of letters that differ, if they do.
+std::optional<int> wrong_capitals(std::string_view a, std::string_view b) {
+  const auto same_letter = [](char p, char q) { return lower(p) == lower(q); };
+  if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same_letter)) return std::nullopt;
+  return static_cast<int>(std::inner_product(a.begin(), a.end(), b.begin(), 0, std::plus<>(), std::not_equal_to<>()));
+}
+
+/// " (did you mean "MPa"?)" for units whose capitals are wrong, the one with the fewest wrong letters; or nothing.
+std::string did_you_mean_unit(std::string_view name) {
+  std::string best;
+  int fewest = static_cast<int>(name.size()) + 1;
+  const auto consider = [&](const std::string& unit) {
+    const auto wrong = wrong_capitals(name, unit);
+    if (!wrong || *wrong >= fewest) return;
+    best = unit;
+    fewest = *wrong;
+  };
+  for (const NamedUnit& u : units) {
+    consider(std::string(u.name));
+    if (u.prefixes == Prefixes::none) continue;
+    for (const Prefix& prefix : prefixes) consider(fmt::format("{}{}", prefix.name, u.name));
+  }
+  return best.empty() ? std::string() : fmt::format(" (did you mean {}?)", quoted(best));
 }
 
 Unit power(const Unit& u, int n) {
@@ -146,9 +175,9 @@ class UnitReader {
     const auto u = find_unit(name);
     if (!u)
       fail(
-          fmt::format("unknown unit {}; known are m g s N Pa J W Hz bar t min h rad deg % with SI prefixes, as in "
+          fmt::format("unknown unit {}{}; known are m g s N Pa J W Hz bar t min h rad deg % with SI prefixes, as in "
                       "\"MPa\" or \"kg/m3\"",
-                      quoted(name)));
+                      quoted(name), did_you_mean_unit(name)));
     at_ = begin + name.size();
     return *u;
   }
@@ -277,6 +306,8 @@ DimensionalResult read_quantity(std::string_view text) {
     return {std::nullopt, fault.position, fault.what};
   }
 }
+
+bool is_unit(std::string_view name) { return find_unit(name).has_value(); }
 
 bool looks_like_quantity(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(' ');

@@ -43,6 +43,9 @@ struct DimensionalResult {
 /// or power of units with SI prefixes. A decimal number is scaled in decimal, so "0.1 mm" is the same number as 1e-4.
 DimensionalResult read_quantity(std::string_view text);
 
+/// Is `name` a unit, with or without an SI prefix ("mm", "MPa")?
+bool is_unit(std::string_view name);
+
 /// True for a number that is followed by a letter (or by 1/...), which is never a formula.
 bool looks_like_quantity(std::string_view text);
 

@@ -67,8 +67,8 @@ class SiteFormula {
         check_stands_alone(*term);
         terms_.push_back(*term);
       }
-    if (formula_for(0).depends_on_time())
-      throw InputError(origin_, quoted(text_) + " depends on t, but what is selected cannot change with time");
+    for (std::size_t i = 0; i < text_.size(); ++i) check_coordinate(i);
+    check_formula();
   }
 
   bool takes(const Vec3& X, Extremes extremes) { return formula_for(extremes)(0.0, X) != 0.0; }
@@ -80,10 +80,40 @@ class SiteFormula {
     const bool is_free = (before == std::string::npos || std::string("(&|").find(text_[before]) != std::string::npos) &&
                          (after == std::string::npos || std::string(")&|").find(text_[after]) != std::string::npos);
     if (is_free) return;
+    throw InputError(place_of(term.begin), quoted(text_.substr(term.begin, term.length)) +
+                                               " can only be combined by && and || and parentheses");
+  }
+
+  /// x, y and z are only known in extreme terms.
+  void check_coordinate(std::size_t i) const {
+    if (std::string("xyz").find(text_[i]) == std::string::npos) return;
+    if ((i > 0 && is_name_character(text_[i - 1])) || (i + 1 < text_.size() && is_name_character(text_[i + 1]))) return;
+    if (std::any_of(terms_.begin(), terms_.end(), [i](const ExtremeTerm& term) { return term.begin == i; })) return;
+    const std::string small(1, text_[i]),
+        large(1, static_cast<char>(std::toupper(static_cast<unsigned char>(text_[i]))));
+    throw InputError(place_of(i), "formula " + quoted(text_) + ": " + quoted(small) + " is known in " +
+                                      quoted(small + " == min") + " and " + quoted(small + " == max") +
+                                      " only; the coordinate is " + quoted(large));
+  }
+
+  /// What the parser refuses is shown as the user wrote it.
+  void check_formula() {
+    try {
+      if (!formula_for(0).depends_on_time()) return;
+    } catch (const InputError& error) {
+      std::string message = error.what();
+      const std::string parsed = quoted(with_terms(0));
+      if (const std::size_t at = message.find(parsed); at != std::string::npos)
+        message.replace(at, parsed.size(), quoted(text_));
+      throw InputError({}, message);
+    }
+    throw InputError(origin_, quoted(text_) + " depends on t, but what is selected cannot change with time");
+  }
+
+  Origin place_of(std::size_t character) const {
     Origin place = origin_;
-    if (place.line > 0) place.column += 1 + static_cast<int>(term.begin);  // the column is that of the opening quote
-    throw InputError(
-        place, quoted(text_.substr(term.begin, term.length)) + " can only be combined by && and || and parentheses");
+    if (place.line > 0) place.column += 1 + static_cast<int>(character);  // the column is that of the opening quote
+    return place;
   }
 
   Formula& formula_for(Extremes extremes) {

@@ -73,6 +73,7 @@ Value read_toml(const std::string& text, const std::string& file) {
     std::string what(error.description());
     std::replace_if(
         what.begin(), what.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+    if (what.ends_with("could not determine value type")) what += "; a string needs quotes";
     throw InputError(origin_at(error.source(), file, ""), fmt::format("not valid TOML: {}", what));
   }
 }

@@ -14,8 +14,9 @@ void fill_boundary_nodes(const System& s, std::span<const Vec3> walls, Double4* 
 /// Adds the boundary nodes' part (1/V_a) (x_f - x_a) (x) B_af to F of their owners.
 void add_boundary_strain(const System& s, const Double4* x, Tensor* F);
 
-/// Boundary bonds of owner number `k`, displacement D (x_f - x_a - F_a X_af), [V 30]: adds their contact stress to its
-/// T and their force to its f, and sets `R` to the force on each of its nodes. Returns their energy [J].
+/// Boundary bonds of owner number `k`, displacement D (x_f - x_a - F_a X_af), theory (14) and [V 30]: adds their
+/// contact stress to its T and their force to its f, and sets `R` to the force on each of its nodes. Returns their
+/// energy [J].
 double add_boundary_bonds(const System& s, Index k, const Double4* x, const Tensor& F, Columns& T, Double4& f,
                           Double4* R);
 

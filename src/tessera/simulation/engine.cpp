@@ -143,11 +143,12 @@ double Engine::largest_force() const {
 void Engine::fail(Index particle, const std::string& reason) const {
   const auto a = static_cast<std::size_t>(particle);
   const Vec3 x = to_vec3(state_.x[a]);
-  throw RunError(fmt::format(
-      "step {}, t = {:g} s: {} at particle {} of body \"{}\", now at ({:g}, {:g}, {:g}); a smaller step "
-      "(time.safety), finer particles or slower loading may help",
-      step_, time_, reason, model_.user_number[a] - model_.bodies[static_cast<std::size_t>(model_.body_of[a])].first,
-      model_.bodies[static_cast<std::size_t>(model_.body_of[a])].name, x.x, x.y, x.z));
+  const BodyModel& body = model_.bodies[static_cast<std::size_t>(model_.body_of[a])];
+  const char* cure = step_ == 0
+                         ? "the [[initial]] displacements and what [[boundary]] prescribes at t = 0 must go together"
+                         : "a smaller step (time.safety), finer particles or slower loading may help";
+  throw RunError(fmt::format("step {}, t = {:g} s: {} at particle {} of body \"{}\", now at ({:g}, {:g}, {:g}); {}",
+                             step_, time_, reason, model_.user_number[a] - body.first, body.name, x.x, x.y, x.z, cure));
 }
 
 void Engine::verify_deformation() const {

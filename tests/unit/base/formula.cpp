@@ -67,7 +67,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{"X = 1", 2, "write \"==\""}, Bad{"1, 2", 1, "not several"}, Bad{"X Y", 2, "unexpected \"Y\""},
                     Bad{"pow(1)", 5, "too few arguments"}, Bad{"pow(1, 2, 3)", 11, "too many arguments"},
                     Bad{"sin + 1", 0, "needs its argument in parentheses"}, Bad{"1..2", 2, "unexpected"},
-                    Bad{"1/0", 0, "its value is inf"}, Bad{"sqrt(-1)", 0, "nan"}, Bad{"1 s", 2, "unknown name \"s\""},
+                    Bad{"1/0", 0, "its value is inf"}, Bad{"sqrt(-1)", 0, "nan"},
+                    Bad{"1 s", 2, "unknown name \"s\"; numbers in formulas are in SI units"},
+                    Bad{"X + 0.3 mm", 8, "numbers in formulas are in SI units"}, Bad{"X*mm", 2, "known are"},
                     Bad{"X := 2", 3, "write \"==\""}, Bad{"rnd()", 0, "unknown name \"rnd\""},
                     Bad{"\"X\"\n", 3, "\\n"}));
 

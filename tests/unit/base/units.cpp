@@ -65,8 +65,10 @@ INSTANTIATE_TEST_SUITE_P(Units, BadQuantity,
                                          Bad{"5 kmin", 2, "unknown unit \"kmin\""}, Bad{"5 m/", 4, "too early"},
                                          Bad{"5 m^x", 4, "a power"}, Bad{"5 m^12", 4, "a power"},
                                          Bad{"5 (m", 4, "parenthesis"}, Bad{"5 m)", 3, "unexpected \")\""},
-                                         Bad{"5 kg / parsec", 7, "unknown unit \"parsec\""},
-                                         Bad{"1e400 m", 0, "too large"}, Bad{"1e99999999999 m", 0, "too large"}));
+                                         Bad{"5 kg / parsec", 7, "unknown unit \"parsec\"; known"},
+                                         Bad{"5 Mpa", 2, "unknown unit \"Mpa\" (did you mean \"MPa\"?)"},
+                                         Bad{"5 KN/M2", 2, "did you mean \"kN\"?"}, Bad{"1e400 m", 0, "too large"},
+                                         Bad{"1e99999999999 m", 0, "too large"}));
 
 TEST(LooksLikeQuantity, TellsUnitsFromFormulas) {
   for (const char* text : {"5 mm", "5mm", "-2 MPa", "10 1/s", "3 nonsense", "50 %", "1 s"})

@@ -74,6 +74,10 @@ TEST(Selection, BadFormulasKeepTheirColumns) {
   expect_contains(error("Q > 1 && y == max"), "case.toml:7:4: ");
   expect_contains(error("X > 0 && 2*x == min"), "case.toml:7:15: shape: \"x == min\" can only be combined");
   expect_contains(error("x == min + 1"), "can only be combined by && and ||");
+  expect_contains(error("y == max && X > 3 m"), "formula \"y == max && X > 3 m\", character 19: ");
+  expect_contains(error("x > 1 && y == top"), "case.toml:7:4: shape: formula \"x > 1 && y == top\": \"x\" is known in");
+  expect_contains(error("X > 1 && y == top"), "case.toml:7:13: ");
+  expect_contains(error("X > 1 && y == top"), "\"y == min\" and \"y == max\" only; the coordinate is \"Y\"");
   expect_contains(error("X > t"), "cannot change with time");
 }
 

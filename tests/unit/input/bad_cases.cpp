@@ -69,6 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
             "found the string \"1 kg\", a mass in kg; expected a pressure in Pa, as in \"17 MPa\" or 17e6; allowed: > "
             "0"},
         Bad{"\"1 MPa\"", "\"1 MPaa\"", "13:12", "material.0.young", "unknown unit \"MPaa\""},
+        Bad{"\"1 MPa\"", "\"1 Mpa\"", "13:12", "material.0.young", "did you mean \"MPa\"?"},
         Bad{"\"1 MPa\"", "\"stiff\"", "13:10", "material.0.young", "a number is expected at the start"},
         Bad{"\"1 MPa\"", "\"1\"", "13:9", "material.0.young", "found the string \"1\", a number; expected a pressure"},
         Bad{"\"1500 ms\"", "\"1500 mm\"", "36:7", "time.end", "a length in m; expected a time in s"},

@@ -234,13 +234,12 @@ TEST_P(HeldByTools, TorqueIsThatOfTheReactions) {
 
 Mat3 bottom(const Vec3& C, const Vec3&) { return C.z < 1e-9 ? identity() : Mat3{}; }
 
-INSTANTIATE_TEST_SUITE_P(Consistent, HeldByTools,
-                         testing::Values(Variant{Method::consistent, bottom, "bottom"},
-                                         Variant{Method::consistent, everything, "held"},
-                                         Variant{Method::consistent, bottom, "bottom_cell", Integration::cell},
-                                         Variant{Method::consistent, bottom, "bottom_second_order",
-                                                 Integration::second_order}),
-                         [](const auto& param) { return param.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Consistent, HeldByTools,
+    testing::Values(Variant{Method::consistent, bottom, "bottom"}, Variant{Method::consistent, everything, "held"},
+                    Variant{Method::consistent, bottom, "bottom_cell", Integration::cell},
+                    Variant{Method::consistent, bottom, "bottom_second_order", Integration::second_order}),
+    [](const auto& param) { return param.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(AllFormulations, Conservation,
                          testing::Values(Kind{Method::delaunay}, Kind{Method::consistent}, Kind{Method::variational},

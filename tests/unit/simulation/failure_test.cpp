@@ -82,7 +82,9 @@ TEST(FailingRuns, NoticeGrowingEnergy) {
 TEST(FailingRuns, RefuseAnInvertedStart) {
   Case c = cube_case(Method::consistent);
   c.initial = {{"", formulas("-2*X", "0", "0"), formulas("0", "0", "0"), {}}};
-  EXPECT_TRUE(contains(message_of<RunError>([&] { Running run(c); }), "step 0, t = 0 s: the cell is inverted"));
+  const std::string message = message_of<RunError>([&] { Running run(c); });
+  EXPECT_TRUE(contains(message, "step 0, t = 0 s: the cell is inverted")) << message;
+  EXPECT_TRUE(contains(message, "prescribes at t = 0 must go together")) << message;
 }
 
 TEST(FixedSteps, AboveTheLimitAreRefusedUnlessForced) {
