@@ -1,16 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "support/small_bodies.hpp"
+#include "support/balance.hpp"
 #include "support/triangle_surfaces.hpp"
 #include "tessera/discretization/identities.hpp"
 #include "tessera/tessellation/surface_cells.hpp"
 
 namespace tessera::test {
 namespace {
-
-const Mat3 gradient{{1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4, 7e-4, 8e-4, 9e-4}};  // [V 52]
-
-Vec3 linear(const Vec3& X) { return X + gradient * X; }
 
 struct Body {
   std::string name;
@@ -51,13 +47,6 @@ Built build(const Body& body, unsigned seed) {
   return built;
 }
 
-/// Largest force on a particle [N].
-double largest(const Forces& forces) {
-  double f = 0.0;
-  for (const Double4& total : forces.total()) f = std::max(f, norm(to_vec3(total)));
-  return f;
-}
-
 class SurfacePatchTest : public testing::TestWithParam<unsigned> {};
 
 TEST_P(SurfacePatchTest, IdentitiesHold) {
@@ -85,12 +74,10 @@ TEST_P(SurfacePatchTest, LinearMotionIsExactAndInEquilibrium) {
     Forces forces(s);
     forces.evaluate(state, {walls, {}, {}}, 0.0);
     for (const Tensor& F : forces.deformation_gradient()) {
-      const Mat3 error = to_mat3(F) - identity() - gradient;
+      const Mat3 error = to_mat3(F) - identity() - patch_gradient;
       EXPECT_LT(std::sqrt(contract(error, error)), 1e-13) << body.name;
     }
-    double reaction = 0.0;
-    for (const Vec3& r : forces.reactions()) reaction = std::max(reaction, norm(r));
-    EXPECT_LT(largest(forces), 1e-9 * reaction) << body.name;
+    EXPECT_LT(largest(forces.total()), 1e-9 * largest(forces.reactions())) << body.name;
   }
 }
 
@@ -102,17 +89,10 @@ TEST_P(SurfacePatchTest, TractionsBalanceConstantStress) {
     const System s = system_of(discretize_consistent(built.X, built.made.cells, D), rubber());
     State state = reference_state(s);
     move(state, s, linear);
-    const Mat3 P = std::get<NeoHookean>(rubber().law).stress(identity() + gradient);
-    std::vector<NodalForce> loads;
-    double load = 0.0;
-    for (std::size_t i = 0; i < s.d.sites.size(); ++i)
-      for (const LoadShare& share : s.d.load.row(static_cast<Index>(i))) {
-        loads.push_back({share.particle, share.area * (P * s.d.sites[i].N)});
-        load = std::max(load, norm(loads.back().force));
-      }
+    const std::vector<NodalForce> loads = loads_of_stress(s, patch_stress());
     Forces forces(s);
     forces.evaluate(state, {{}, loads, {}}, 0.0);
-    EXPECT_LT(largest(forces), 1e-9 * load) << body.name;
+    EXPECT_LT(largest(forces.total()), 1e-9 * largest(loads)) << body.name;
   }
 }
 
