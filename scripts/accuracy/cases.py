@@ -167,7 +167,7 @@ class SpinningCube(Case):
     """Relative L2 error of the path of a corner of the free spinning cube over 0..2 s against the finest run."""
 
     name, example = "spinning-cube", "spinning-cube/spinning-cube.toml"
-    finest = (("consistent", "second-order"), 24)
+    finest = (("consistent", "second-order"), 16)
 
     def settings(self, method, per_metre, jitter):
         probe = '[{ name = "corner", type = "point", at = [0.5, 0.5, 0.5] }]'

@@ -144,7 +144,7 @@ plot {", ".join(plots)}""", size=(900, 460))
         return text
 
     def spinning_cube(self):
-        case, densities = cases.SpinningCube(self.store), self.densities(4, 8, 16)
+        case, densities = cases.SpinningCube(self.store), self.densities(4, 8)
         head = ["", *(f"{n} per metre" for n in densities), "changes at the last: angular momentum, energy"]
         rows = []
         for method in self.main_methods:
