@@ -2,8 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
+
+#include "tessera/base/field.hpp"
 
 namespace tessera {
 
@@ -23,12 +24,15 @@ constexpr std::size_t width_of(ElementType type) {
   return 1;
 }
 
+/// A compressed piece of an array. It has room for the largest one, so that the next frame finds its memory there.
+using Chunk = RawField<unsigned char>;
+
 /// A table that is already shuffled and compressed, in pieces of `chunk_rows` rows (the last one filled up).
 struct ChunkedArray {
   ElementType type = ElementType::float64;
   std::size_t rows = 0, chunk_rows = 0;
   std::size_t columns = 1;
-  std::vector<std::string> chunks;
+  std::vector<Chunk> chunks;
 
   std::size_t row_bytes() const { return columns * width_of(type); }
   std::size_t chunk_bytes() const { return chunk_rows * row_bytes(); }

@@ -50,16 +50,10 @@ void convert(std::span<const double> values, ElementType type, std::byte* bytes)
   }
 }
 
-void compress(PlaneDeflater& deflater, const ChunkedArray& array, std::span<const std::byte> bytes,
-              std::string& chunk) {
+void compress(PlaneDeflater& deflater, const ChunkedArray& array, std::span<const std::byte> bytes, Chunk& chunk) {
   const bool floating = array.type == ElementType::float32 || array.type == ElementType::float64;
   const std::size_t width = width_of(array.type);
-  const std::string_view stream = floating ? deflater.numbers(bytes, width) : deflater.integers(bytes, width);
-  if (stream.size() > chunk.capacity()) {  // with room for the next frame, of nearly the same size
-    chunk = {};
-    chunk.reserve(stream.size() + stream.size() / 16);
-  }
-  chunk.assign(stream);
+  floating ? deflater.numbers(bytes, width, chunk) : deflater.integers(bytes, width, chunk);
 }
 
 VtkhdfFrame::Array named(const std::string& name, ChunkedArray&& array) {
@@ -125,11 +119,15 @@ void VtkhdfFrames::compress_block(const SnapshotSource& source, std::span<const 
   const std::size_t begin = block * block_rows;
   const std::size_t end = std::min(begin + block_rows, static_cast<std::size_t>(source.particles));
   work->bytes.resize(std::max(work->bytes.size(), columns.size()));
-  for (std::size_t c = 0; c < columns.size(); ++c) work->bytes[c].assign(arrays[c]->chunk_bytes(), std::byte{0});
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    work->bytes[c].resize(arrays[c]->chunk_bytes());
+    const std::size_t used = (end - begin) * arrays[c]->row_bytes();
+    std::fill(work->bytes[c].begin() + static_cast<std::ptrdiff_t>(used), work->bytes[c].end(), std::byte{0});
+  }
   for (std::size_t row = begin; row < end; row += snapshot_rows) {
-    const Snapshot part = source.part(static_cast<Index>(row), static_cast<Index>(std::min(row + snapshot_rows, end)));
+    source.take(static_cast<Index>(row), static_cast<Index>(std::min(row + snapshot_rows, end)), work->part);
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      evaluate(*columns[c].quantity, part, work->values);
+      evaluate(*columns[c].quantity, work->part, work->values);
       convert(work->values, arrays[c]->type, work->bytes[c].data() + (row - begin) * arrays[c]->row_bytes());
     }
   }
@@ -157,7 +155,7 @@ VtkhdfFrame::Array VtkhdfFrames::vertex_types(std::size_t size) {
   ChunkedArray array = shaped(ElementType::uint8, size, 1);
   const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
   const std::vector<std::byte> bytes(array.chunk_bytes(), vtk_vertex);
-  for (std::string& chunk : array.chunks) compress(work->deflater, array, bytes, chunk);
+  for (Chunk& chunk : array.chunks) compress(work->deflater, array, bytes, chunk);
   return named("/VTKHDF/Types", std::move(array));
 }
 

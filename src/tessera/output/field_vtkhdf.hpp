@@ -43,6 +43,7 @@ class VtkhdfFrames {
   };
   struct Workspace {
     PlaneDeflater deflater;
+    Snapshot part;
     std::vector<double> values;
     std::vector<std::vector<std::byte>> bytes;  // of a chunk, for each column
   };

@@ -165,7 +165,7 @@ void Hdf5Image::array(const std::string& name, const ChunkedArray& values) {
                                     storage.get(), H5P_DEFAULT)),
                     H5Dclose);
   std::array<hsize_t, 2> offset = {0, 0};
-  for (const std::string& chunk : values.chunks) {
+  for (const Chunk& chunk : values.chunks) {
     good(H5Dwrite_chunk(data.get(), H5P_DEFAULT, 0, offset.data(), chunk.size(), chunk.data()));
     offset[0] += values.chunk_rows;
   }
@@ -212,7 +212,7 @@ void Hdf5Image::save(const std::string& path, Durability durability) {
   good(H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &memory));
   const unsigned char* bytes = *static_cast<unsigned char**>(memory);
   OutputFile file(path);
-  file.write({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)});
+  file.write_past_cache({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)});
   file.commit(durability);
 }
 

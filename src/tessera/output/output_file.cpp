@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 
@@ -21,6 +23,25 @@ void sync_folder(const std::string& path) {
   if (descriptor < 0) return;  // some file systems do not open folders; the file itself is complete
   ::fsync(descriptor);
   ::close(descriptor);
+}
+
+/// Writes whole pages past the file cache; returns how many bytes, perhaps none. What stops it, who writes the rest
+/// will meet again.
+std::size_t write_pages(int descriptor, std::string_view bytes) {
+#ifdef O_DIRECT
+  constexpr std::size_t page = 4096;
+  const int flags = ::fcntl(descriptor, F_GETFL);
+  const bool aligned = reinterpret_cast<std::uintptr_t>(bytes.data()) % page == 0;
+  if (!aligned || ::fcntl(descriptor, F_SETFL, flags | O_DIRECT) != 0) return 0;
+  const std::size_t whole = bytes.size() / page * page;
+  std::size_t done = 0;
+  for (ssize_t n = 1; done < whole && n > 0; done += static_cast<std::size_t>(std::max<ssize_t>(n, 0)))
+    n = ::write(descriptor, bytes.data() + done, whole - done);
+  ::fcntl(descriptor, F_SETFL, flags);
+  return done;
+#else
+  return 0;
+#endif
 }
 
 }  // namespace
@@ -44,6 +65,11 @@ OutputFile::~OutputFile() {
 
 void OutputFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) throw_write_error(path_);
+}
+
+void OutputFile::write_past_cache(std::string_view bytes) {
+  if (std::fflush(file_.get()) != 0) throw_write_error(path_);
+  write(bytes.substr(write_pages(::fileno(file_.get()), bytes)));
 }
 
 void OutputFile::commit(Durability durability) {

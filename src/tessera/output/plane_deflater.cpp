@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "tessera/base/error.hpp"
+#include "tessera/output/adler.hpp"
 #include "tessera/output/deflate_blocks.hpp"
 
 namespace tessera {
@@ -30,38 +31,34 @@ void split(const unsigned char* values, unsigned char* planes, std::size_t count
 }  // namespace
 
 PlaneDeflater::PlaneDeflater() {
-  if (deflateInit(&stream_, zlib_level) != Z_OK) fail();
+  if (deflateInit(&zlib_, zlib_level) != Z_OK) fail();
 }
 
-PlaneDeflater::~PlaneDeflater() { deflateEnd(&stream_); }
+PlaneDeflater::~PlaneDeflater() { deflateEnd(&zlib_); }
 
-std::string_view PlaneDeflater::numbers(std::span<const std::byte> values, std::size_t width) {
+void PlaneDeflater::numbers(std::span<const std::byte> values, std::size_t width, Chunk& stream) {
   shuffle(values, width);
   const std::size_t count = values.size() / width;
-  out_.resize(width * largest_block(count) + ends_of_stream);
-  BitWriter out(out_.data());
+  stream.resize(width * largest_block(count) + ends_of_stream);
+  BitWriter out(stream.data());
   out.put(zlib_header, 16);
   for (std::size_t k = 0; k < width; ++k) put_block(out, std::span(planes_).subspan(k * count, count));
   put_last_block(out);
-  const auto checksum = adler32_z(adler32(0, nullptr, 0), planes_.data(), planes_.size());
+  const std::uint32_t checksum = adler_checksum(planes_);
   for (unsigned shift : {24U, 16U, 8U, 0U}) out.put(checksum >> shift & 255U, 8);
-  return stream(static_cast<std::size_t>(out.end() - out_.data()));
+  stream.resize(static_cast<std::size_t>(out.end() - stream.data()));
 }
 
-std::string_view PlaneDeflater::integers(std::span<const std::byte> values, std::size_t width) {
+void PlaneDeflater::integers(std::span<const std::byte> values, std::size_t width, Chunk& stream) {
   shuffle(values, width);
-  if (deflateReset(&stream_) != Z_OK) fail();
-  out_.resize(deflateBound(&stream_, planes_.size()));
-  stream_.next_in = planes_.data();
-  stream_.avail_in = static_cast<uInt>(planes_.size());
-  stream_.next_out = out_.data();
-  stream_.avail_out = static_cast<uInt>(out_.size());
-  if (deflate(&stream_, Z_FINISH) != Z_STREAM_END) fail();
-  return stream(stream_.total_out);
-}
-
-std::string_view PlaneDeflater::stream(std::size_t size) const {
-  return {reinterpret_cast<const char*>(out_.data()), size};
+  if (deflateReset(&zlib_) != Z_OK) fail();
+  stream.resize(deflateBound(&zlib_, planes_.size()));
+  zlib_.next_in = planes_.data();
+  zlib_.avail_in = static_cast<uInt>(planes_.size());
+  zlib_.next_out = stream.data();
+  zlib_.avail_out = static_cast<uInt>(stream.size());
+  if (deflate(&zlib_, Z_FINISH) != Z_STREAM_END) fail();
+  stream.resize(zlib_.total_out);
 }
 
 void PlaneDeflater::shuffle(std::span<const std::byte> values, std::size_t width) {
@@ -70,7 +67,7 @@ void PlaneDeflater::shuffle(std::span<const std::byte> values, std::size_t width
   const std::size_t count = values.size() / width;
   if (width == 8) return split<std::uint64_t>(bytes, planes_.data(), count);
   if (width == 4) return split<std::uint32_t>(bytes, planes_.data(), count);
-  planes_.assign(bytes, bytes + values.size());  // single bytes
+  std::memcpy(planes_.data(), bytes, values.size());  // single bytes
 }
 
 }  // namespace tessera

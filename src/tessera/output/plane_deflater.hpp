@@ -4,8 +4,9 @@
 
 #include <cstddef>
 #include <span>
-#include <string_view>
 #include <vector>
+
+#include "tessera/output/chunked_array.hpp"
 
 namespace tessera {
 
@@ -21,17 +22,16 @@ class PlaneDeflater {
   PlaneDeflater(const PlaneDeflater&) = delete;
   PlaneDeflater& operator=(const PlaneDeflater&) = delete;
 
-  /// The stream of floating-point numbers of `width` bytes each; it stays until the next call.
-  std::string_view numbers(std::span<const std::byte> values, std::size_t width);
-  /// The stream of integers, in which patterns are searched for; it stays until the next call.
-  std::string_view integers(std::span<const std::byte> values, std::size_t width);
+  /// Makes `stream` that of floating-point numbers of `width` bytes each.
+  void numbers(std::span<const std::byte> values, std::size_t width, Chunk& stream);
+  /// Makes `stream` that of integers, in which patterns are searched for.
+  void integers(std::span<const std::byte> values, std::size_t width, Chunk& stream);
 
  private:
-  std::string_view stream(std::size_t size) const;
   void shuffle(std::span<const std::byte> values, std::size_t width);
 
-  z_stream stream_{};  // for integers
-  std::vector<unsigned char> planes_, out_;
+  z_stream zlib_{};  // for integers
+  RawField<unsigned char> planes_;
 };
 
 }  // namespace tessera

@@ -38,9 +38,15 @@ struct Snapshot {
 struct SnapshotSource {
   double time = 0.0;    // [s]
   Index particles = 0;  // in all
-  /// Particles [begin, end), by the user's numbers. May be called from several threads at once; the state must not
-  /// have moved on.
-  std::function<Snapshot(Index begin, Index end)> part;
+  /// Makes `part` particles [begin, end), by the user's numbers; its memory is used again. May be called from several
+  /// threads at once; the state must not have moved on.
+  std::function<void(Index begin, Index end, Snapshot& part)> take;
+
+  Snapshot part(Index begin, Index end) const {
+    Snapshot s;
+    take(begin, end, s);
+    return s;
+  }
 };
 
 /// The pieces of a snapshot of all particles, which must outlive them.

@@ -69,7 +69,7 @@ class Engine {
   [[noreturn]] void fail(Index particle, const std::string& reason) const;
   void check_same_model(const Checkpoint& c) const;
   struct Observation;
-  Snapshot snapshot_of(const Observation& seen, Index begin, Index end) const;
+  void take_snapshot(const Observation& seen, Index begin, Index end, Snapshot& shot) const;
 
   Model& model_;
   TimeSpec spec_;

@@ -77,6 +77,38 @@ TEST(WriteFailure, FieldsOnAFullDisk) {
   }
 }
 
+TEST(WriteFailure, PagesPastTheCacheOnAFullDisk) {
+  const RawField<char> bytes(5'000'000, 'x');  // large enough to begin at a page
+  const std::string_view all(bytes.data(), bytes.size());
+  for (const rlim_t room : {rlim_t{0}, rlim_t{1'000'000}, rlim_t{4'997'120}}) {  // within pages, and all but the last
+    const sample::Folder folder;
+    std::string message;
+    {
+      const FullDisk full(room);
+      message = sample::message_of<RunError>([&] {
+        OutputFile file(folder.file("frame"));
+        file.write_past_cache(all);
+        file.commit(Durability::process);
+      });
+    }
+    EXPECT_EQ(message, folder.file("frame") + ": cannot be written: File too large");
+    EXPECT_EQ(folder.files(), 0u);
+  }
+}
+
+TEST(OutputFile, WritesPastTheCacheWhatCameInBetween) {
+  RawField<char> bytes(5'000'001);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i % 251);
+  const std::string_view all(bytes.data(), bytes.size());
+  const sample::Folder folder;
+  OutputFile file(folder.file("frame"));
+  file.write_past_cache(all);
+  file.write("and more");
+  file.write_past_cache(all);  // does not begin at a page of the file
+  file.commit(Durability::process);
+  EXPECT_EQ(content_of_file(folder.file("frame")), std::string(all) + "and more" + std::string(all));
+}
+
 TEST(WriteFailure, CheckpointOnAFullDiskKeepsTheOneBefore) {
   const sample::Folder folder;
   Checkpoint c;
