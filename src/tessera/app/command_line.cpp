@@ -83,7 +83,9 @@ class CommandLine {
         ->add_option("--formulation", bench_values_.formulation,
                      "voronoi or delaunay; default voronoi for the speed, both for the accuracy")
         ->check(CLI::IsMember({"voronoi", "delaunay"}));
-    bench_->add_option("--integration", bench_values_.integration, "nodal (default), cell or second-order (voronoi)")
+    bench_
+        ->add_option("--integration", bench_values_.integration,
+                     "nodal, cell or second-order (voronoi); default nodal for the speed, all for the accuracy")
         ->check(CLI::IsMember({"nodal", "cell", "second-order"}));
     bench_->add_flag("--accuracy", bench_values_.accuracy, "Only the time for 1% error of a cantilever's path")
         ->excludes(particles);

@@ -105,6 +105,7 @@ void execute(const BenchCommand& command) {
   if (command.threads > 0) options.threads = command.threads;
   if (!command.formulation.empty())
     options.formulation = command.formulation == "delaunay" ? Formulation::delaunay : Formulation::voronoi;
+  if (command.integration == "nodal") options.integration = Integration::nodal;
   if (command.integration == "cell") options.integration = Integration::cell;
   if (command.integration == "second-order") options.integration = Integration::second_order;
   if (options.integration == Integration::second_order && options.formulation == Formulation::delaunay)

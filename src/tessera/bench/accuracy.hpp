@@ -42,6 +42,6 @@ struct AccuracyForTime {
 
 /// Runs the cantilever with 4 and 8 particles per metre, and with 16 if the error is not yet the wanted one. Says on
 /// stderr what runs.
-AccuracyForTime measure_accuracy(Formulation formulation, Integration integration = Integration::nodal);
+AccuracyForTime measure_accuracy(Formulation formulation, Integration integration);
 
 }  // namespace tessera

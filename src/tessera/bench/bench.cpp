@@ -250,7 +250,7 @@ void measure_speed(const BenchOptions& options, BenchReport& report) {
   const std::vector<int> threads = thread_counts(options);
   MethodSpec method;
   method.formulation = options.formulation.value_or(Formulation::voronoi);
-  method.integration = options.integration;
+  method.integration = options.integration.value_or(Integration::nodal);
   std::vector<Index> particles(std::begin(sizes), std::end(sizes));
   if (options.particles) particles = {*options.particles};
   require_memory(particles.back(), method);
@@ -268,14 +268,23 @@ void measure_speed(const BenchOptions& options, BenchReport& report) {
 
 void measure_accuracy(const BenchOptions& options, int threads, BenchReport& report) {
   parallel::set_threads(options.threads.value_or(threads));
-  std::vector<Formulation> formulations = {Formulation::delaunay, Formulation::voronoi};
-  if (options.integration == Integration::second_order) formulations = {Formulation::voronoi};
-  if (options.formulation) formulations = {*options.formulation};
-  for (Formulation formulation : formulations)
-    report.accuracy.push_back(measure_accuracy(formulation, options.integration));
+  for (const MethodSpec& method : methods_of_accuracy(options))
+    report.accuracy.push_back(measure_accuracy(method.formulation, method.integration));
 }
 
 }  // namespace
+
+std::vector<MethodSpec> methods_of_accuracy(const BenchOptions& options) {
+  std::vector<MethodSpec> methods;
+  for (const Formulation formulation : {Formulation::delaunay, Formulation::voronoi})
+    for (const Integration integration : {Integration::nodal, Integration::cell, Integration::second_order}) {
+      const bool wanted = options.formulation.value_or(formulation) == formulation &&
+                          options.integration.value_or(integration) == integration;
+      const bool known = formulation == Formulation::voronoi || integration != Integration::second_order;
+      if (wanted && known) methods.emplace_back().formulation = formulation, methods.back().integration = integration;
+    }
+  return methods;
+}
 
 BenchReport run_bench(const BenchOptions& options) {
   BenchReport report;

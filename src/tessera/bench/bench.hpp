@@ -12,13 +12,13 @@ namespace tessera {
 /// Speed: set-up, sweeps and steps of a cube. Accuracy: the time that an error of the cantilever takes.
 enum class BenchParts { everything, speed, accuracy };
 
-/// What to measure; unset: all sizes, all numbers of threads (accuracy: as many as there are), voronoi for the speed
-/// and both formulations for the accuracy.
+/// What to measure; unset: all sizes, all numbers of threads (accuracy: as many as there are), nodal integration of
+/// voronoi for the speed, all integrations of both formulations for the accuracy.
 struct BenchOptions {
   std::optional<Index> particles;
   std::optional<int> threads;
   std::optional<Formulation> formulation;
-  Integration integration = Integration::nodal;
+  std::optional<Integration> integration;
   BenchParts parts = BenchParts::everything;
 };
 
@@ -41,6 +41,9 @@ struct BenchReport {
   std::vector<BenchRow> rows;
   std::vector<AccuracyForTime> accuracy;
 };
+
+/// The formulations and integrations whose accuracy is measured.
+std::vector<MethodSpec> methods_of_accuracy(const BenchOptions& options);
 
 /// Measures on this machine; says on stderr what runs. Throws UsageError when a size does not fit into memory.
 BenchReport run_bench(const BenchOptions& options);

@@ -54,13 +54,13 @@ std::string accuracy_conclusion(const AccuracyForTime& a) {
 }
 
 std::string accuracy_table(const std::vector<AccuracyForTime>& accuracy) {
-  std::string text =
-      fmt::format("cantilever, error of the tip's path over 0..1 s\n{:>12} {:>8} {:>10} {:>10} {:>8} {:>10} {:>8}\n",
-                  "formulation", "threads", "per metre", "particles", "steps", "steps s", "error");
+  std::string text = fmt::format(
+      "cantilever, error of the tip's path over 0..1 s\n{:>12} {:>13} {:>8} {:>10} {:>10} {:>8} {:>10} {:>8}\n",
+      "formulation", "integration", "threads", "per metre", "particles", "steps", "steps s", "error");
   for (const AccuracyForTime& a : accuracy)
     for (const AccuracyRow& r : a.rows)
-      text += fmt::format("{:>12} {:>8} {:>10} {:>10} {:>8} {:>10.3g} {:>7.2f}%\n", a.formulation, a.threads,
-                          r.per_metre, r.particles, r.steps, r.seconds, 100.0 * r.error);
+      text += fmt::format("{:>12} {:>13} {:>8} {:>10} {:>10} {:>8} {:>10.3g} {:>7.2f}%\n", a.formulation, a.integration,
+                          a.threads, r.per_metre, r.particles, r.steps, r.seconds, 100.0 * r.error);
   for (const AccuracyForTime& a : accuracy) text += accuracy_conclusion(a);
   return text;
 }

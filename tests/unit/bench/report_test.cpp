@@ -33,6 +33,7 @@ TEST(BenchReport, JsonHasTheKeysThatOthersRead) {
     EXPECT_TRUE(j.at("results").at(0).contains(key)) << key;
   const auto& a = j.at("accuracy_for_time").at(0);
   EXPECT_EQ(a.at("formulation"), "delaunay");
+  EXPECT_EQ(a.at("integration"), "nodal");
   EXPECT_EQ(a.at("rows").at(1).at("per_metre"), 8);
   EXPECT_EQ(a.at("rows").at(1).at("error"), 0.0177);
   EXPECT_EQ(a.at("seconds_to_wanted_error"), 42.0);
@@ -53,6 +54,30 @@ TEST(BenchReport, AnUnknownTimeIsNull) {
   const auto a = nlohmann::json::parse(to_json(r)).at("accuracy_for_time").at(0);
   EXPECT_TRUE(a.at("seconds_to_wanted_error").is_null());
   EXPECT_NE(to_table(r).find("no estimate"), std::string::npos);
+}
+
+std::vector<std::string> names(const BenchOptions& options) {
+  std::vector<std::string> result;
+  for (const MethodSpec& m : methods_of_accuracy(options))
+    result.push_back((m.formulation == Formulation::delaunay ? "delaunay " : "voronoi ") + name_of(m.integration));
+  return result;
+}
+
+TEST(Bench, MeasuresTheAccuracyOfAllIntegrationsUnlessAskedForOne) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names({}),
+            (Names{"delaunay nodal", "delaunay cell", "voronoi nodal", "voronoi cell", "voronoi second-order"}));
+  BenchOptions options;
+  options.integration = Integration::second_order;
+  EXPECT_EQ(names(options), Names{"voronoi second-order"});
+  options.integration = Integration::cell;
+  options.formulation = Formulation::delaunay;
+  EXPECT_EQ(names(options), Names{"delaunay cell"});
+}
+
+TEST(BenchReport, TableNamesTheIntegration) {
+  EXPECT_NE(to_table(report()).find("delaunay         nodal        2          4"), std::string::npos)
+      << to_table(report());
 }
 
 TEST(BenchReport, TableSaysWhatIsExtrapolated) {
