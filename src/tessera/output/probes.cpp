@@ -43,13 +43,6 @@ void check(const ProbeSpec& spec) {
 
 }  // namespace
 
-std::vector<Index> particles_of_body(const Snapshot& snapshot, Index body) {
-  std::vector<Index> particles;
-  for (std::size_t a = 0; a < snapshot.body.size(); ++a)
-    if (snapshot.body[a] == body) particles.push_back(static_cast<Index>(a));
-  return particles;
-}
-
 Index nearest_particle(const Snapshot& snapshot, std::span<const Index> candidates, const Vec3& X) {
   return *std::min_element(candidates.begin(), candidates.end(), [&](Index a, Index b) {
     return norm2(snapshot.reference_position[at(a)] - X) < norm2(snapshot.reference_position[at(b)] - X);

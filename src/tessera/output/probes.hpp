@@ -18,9 +18,6 @@ struct BoundProbe {
   std::vector<Index> particles;
 };
 
-/// The particles of body number `body`, ascending.
-std::vector<Index> particles_of_body(const Snapshot& snapshot, Index body);
-
 /// The particle among `candidates` whose reference position is nearest to X; of equals the first.
 Index nearest_particle(const Snapshot& snapshot, std::span<const Index> candidates, const Vec3& X);
 

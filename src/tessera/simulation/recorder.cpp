@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tessera/output/result_folder.hpp"
+
 namespace tessera {
 
 namespace {
@@ -127,7 +129,7 @@ std::vector<double> HistoryRows::row(const Engine& engine) const {
 Recorder::Recorder(const Case& c, const Model& model, const Engine& engine, const std::string& directory,
                    const std::optional<ContinueFrom>& from)
     : rows_(c, model, engine, engine.snapshot()),
-      history_(open<History>(from, directory + "/history.csv", rows_.columns())),
+      history_(open<History>(from, history_path(directory), rows_.columns())),
       fields_(open<FieldSeries>(from, directory, c.output.fields)),
       fields_every_(c.output.fields.every),
       history_every_(c.output.history.every.value_or(0.01 * c.time.end)) {

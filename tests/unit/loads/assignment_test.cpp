@@ -175,14 +175,7 @@ TEST(ConstrainParticles, ComparesVelocitiesWithDisplacements) {
 
 /// The prescribed position of an oblique corner satisfies both entries: D u = sum M u_entry.
 TEST(ConstrainParticles, PartsReproduceTheMotionOfEveryEntry) {
-  Surface surface;
-  surface.body = "wedge";
-  surface.side_names = {{"one"}, {"two"}};
-  surface.known_names = {"one", "two"};
-  surface.upper = {1, 1, 1};
-  const Vec3 N1 = normalized(Vec3{1, 0.2, 0.1}), N2 = normalized(Vec3{0.3, 1, -0.2});
-  surface.pieces = {{{}, N1, 0, {0, 1, 2}}, {{}, N2, 1, {0, 1, 3}}};
-  const std::vector<Vec3> X{{0, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
+  const auto [surface, X, N1, N2] = Wedge();
   const std::vector<BoundaryCondition> conditions{
       entry(3, {"one"}, Condition::symmetric),
       entry(4, {"two"}, PrescribedDisplacement{{std::nullopt, formula("0.3*t"), std::nullopt}}),

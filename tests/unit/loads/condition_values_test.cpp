@@ -143,14 +143,7 @@ TEST(CurvedSides, LendTheirNormalsToTheRimOfAFormula) {
 
 /// A normal displacement at the edge of two sides meets both; one that contradicts a fixed neighbour is an error.
 TEST(NormalDisplacements, MeetAtEdges) {
-  Surface surface;
-  surface.body = "wedge";
-  surface.side_names = {{"one"}, {"two"}};
-  surface.known_names = {"one", "two"};
-  surface.upper = {1, 1, 1};
-  const Vec3 N1 = normalized(Vec3{1, 0.2, 0.1}), N2 = normalized(Vec3{0.3, 1, -0.2});
-  surface.pieces = {{{}, N1, 0, {0, 1, 2}}, {{}, N2, 1, {0, 1, 3}}};
-  const std::vector<Vec3> X{{0, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
+  const auto [surface, X, N1, N2] = Wedge();
   std::vector<BoundaryCondition> conditions{entry(3, {"one"}, NormalDisplacement{*formula("t")}),
                                             entry(4, {"two"}, NormalDisplacement{*formula("3*t")})};
   const auto list = constrain_particles(surface, X, pointers(conditions), 1.0);

@@ -55,6 +55,21 @@ inline Surface surface_of(const Solid& solid, const TetrahedralMesh& mesh) {
   return s;
 }
 
+/// Two oblique sides "one" and "two" that meet at the particles 0 and 1.
+struct Wedge {
+  Surface surface;
+  std::vector<Vec3> X{{0, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
+  Vec3 N1 = normalized(Vec3{1, 0.2, 0.1}), N2 = normalized(Vec3{0.3, 1, -0.2});
+
+  Wedge() {
+    surface.body = "wedge";
+    surface.side_names = {{"one"}, {"two"}};
+    surface.known_names = {"one", "two"};
+    surface.upper = {1, 1, 1};
+    surface.pieces = {{{}, N1, 0, {0, 1, 2}}, {{}, N2, 1, {0, 1, 3}}};
+  }
+};
+
 /// What an InputError says; empty when `action` throws none.
 template <class Action>
 std::string message_of(Action&& action) {

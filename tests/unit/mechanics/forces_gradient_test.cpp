@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "support/small_bodies.hpp"
+#include "support/balance.hpp"
 
 namespace tessera::test {
 namespace {
@@ -39,9 +39,7 @@ class ReactionsFromPotential : public ForcesFromPotential {};
 
 /// Forces are minus the derivative of internal and contact energy, with mixed conditions at edges and corners.
 TEST_P(ForcesFromPotential, AgreeWithCentralDifferences) {
-  double scale = 0.0;
-  for (Index a = 0; a < s.particles(); ++a)
-    scale = std::max(scale, norm(to_vec3(forces.total()[static_cast<std::size_t>(a)])));
+  const double scale = largest(forces.total());
 
   const double h = 1e-5;
   for (Index a = 0; a < s.particles(); ++a)
@@ -149,16 +147,9 @@ TEST_P(Conservation, ForcesAndTorquesVanish) {
   move(state, s, wavy);
   Forces forces(s);
   forces.evaluate(state, {{}, {}, {}}, 0.0);
-  Vec3 force, torque;
-  double size = 0.0;
-  for (std::size_t a = 0; a < s.d.X.size(); ++a) {
-    const Vec3 f = to_vec3(forces.total()[a]);
-    force += f;
-    torque += cross(to_vec3(state.x[a]), f);
-    size += norm(f);
-  }
-  EXPECT_LT(norm(force), 1e-13 * size);
-  EXPECT_LT(norm(torque), 1e-13 * size);
+  const Resultant sum = resultant(state, forces);
+  EXPECT_LT(norm(sum.force), 1e-13 * sum.size);
+  EXPECT_LT(norm(sum.torque), 1e-13 * sum.size);
 }
 
 /// F(Qx) = Q F(x) for the free body, and so for forces.
@@ -172,8 +163,7 @@ TEST_P(Conservation, DeformationGradientIsObjective) {
   Forces first(s), second(s);
   first.evaluate(state, {{}, {}, {}}, 0.0);
   second.evaluate(turned, {{}, {}, {}}, 0.0);
-  double scale = 0.0;
-  for (const Double4& f : first.total()) scale = std::max(scale, norm(to_vec3(f)));
+  const double scale = largest(first.total());
   for (std::size_t a = 0; a < s.d.X.size(); ++a) {
     const Mat3 difference = to_mat3(second.deformation_gradient()[a]) - Q * to_mat3(first.deformation_gradient()[a]);
     EXPECT_LT(std::sqrt(contract(difference, difference)), 1e-13);
@@ -209,8 +199,7 @@ TEST_P(HeldByTools, EnergyKnowsNoRotation) {
   first.evaluate(state, {walls(identity()), {}, {}}, 0.0);
   second.evaluate(turned, {walls(Q), {}, {}}, 0.0);
   EXPECT_NEAR(second.sums().contact, first.sums().contact, 1e-12 * first.sums().contact);
-  double scale = 0.0;
-  for (const Vec3& r : first.reactions()) scale = std::max(scale, norm(r));
+  const double scale = largest(first.reactions());
   for (std::size_t f = 0; f < first.reactions().size(); ++f)
     EXPECT_LT(norm(second.reactions()[f] - Q * first.reactions()[f]), 1e-12 * scale) << "node " << f;
 }
@@ -221,15 +210,10 @@ TEST_P(HeldByTools, TorqueIsThatOfTheReactions) {
   const std::vector<Vec3> tool = walls(identity());
   Forces forces(s);
   forces.evaluate(state, {tool, {}, {}}, 0.0);
-  Vec3 torque;
-  double size = 0.0;
-  for (std::size_t a = 0; a < s.d.X.size(); ++a) {
-    const Vec3 f = to_vec3(forces.total()[a]);
-    torque += cross(to_vec3(state.x[a]), f);
-    size += norm(f);
-  }
+  const Resultant sum = resultant(state, forces);
+  Vec3 torque = sum.torque;
   for (std::size_t f = 0; f < tool.size(); ++f) torque += cross(tool[f], forces.reactions()[f]);
-  EXPECT_LT(norm(torque), 1e-12 * size);
+  EXPECT_LT(norm(torque), 1e-12 * sum.size);
 }
 
 Mat3 bottom(const Vec3& C, const Vec3&) { return C.z < 1e-9 ? identity() : Mat3{}; }

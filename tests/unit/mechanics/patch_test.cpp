@@ -1,13 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "support/small_bodies.hpp"
+#include "support/balance.hpp"
 
 namespace tessera::test {
 namespace {
-
-const Mat3 gradient{{1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4, 7e-4, 8e-4, 9e-4}};  // [V 52]
-
-Vec3 linear(const Vec3& X) { return X + gradient * X; }
 
 double distance_to_boundary(const Solid& solid, const Vec3& X) {
   double distance = 1e300;
@@ -23,9 +19,7 @@ double residual(const System& s, const Forces& forces, double boundary_force) {
     Vec3& held = f[static_cast<std::size_t>(c.particle)];
     held -= c.D * held;
   }
-  double largest = 0.0;
-  for (const Vec3& v : f) largest = std::max(largest, norm(v));
-  return largest / boundary_force;
+  return largest(f) / boundary_force;
 }
 
 struct Body {
@@ -53,11 +47,10 @@ TEST_P(PatchTest, LinearMotionIsExactAndInEquilibrium) {
     Forces forces(s);
     forces.evaluate(state, {walls, {}, {}}, 0.0);
     for (const Tensor& F : forces.deformation_gradient()) {
-      const Mat3 error = to_mat3(F) - identity() - gradient;
+      const Mat3 error = to_mat3(F) - identity() - patch_gradient;
       EXPECT_LT(std::sqrt(contract(error, error)), 1e-13) << body.name;
     }
-    double boundary_force = 0.0;
-    for (const Vec3& r : forces.reactions()) boundary_force = std::max(boundary_force, norm(r));
+    double boundary_force = largest(forces.reactions());
     for (const ParticleConstraint& c : s.d.constraints)
       boundary_force = std::max(boundary_force, norm(to_vec3(forces.total()[static_cast<std::size_t>(c.particle)])));
     EXPECT_LT(residual(s, forces, boundary_force), 1e-10) << body.name;
@@ -70,17 +63,10 @@ double traction_residual(const Kind& kind, const Body& body) {
   const System s = system_of(discretize(kind, body.solid, body.counts, 0.25, 7, nothing), rubber());
   State state = reference_state(s);
   move(state, s, linear);
-  const Mat3 P = std::get<NeoHookean>(rubber().law).stress(identity() + gradient);
-  std::vector<NodalForce> loads;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < s.d.sites.size(); ++i)
-    for (const LoadShare& share : s.d.load.row(static_cast<Index>(i))) {
-      loads.push_back({share.particle, share.area * (P * s.d.sites[i].N)});
-      largest = std::max(largest, norm(loads.back().force));
-    }
+  const std::vector<NodalForce> loads = loads_of_stress(s, patch_stress());
   Forces forces(s);
   forces.evaluate(state, {{}, loads, {}}, 0.0);
-  return residual(s, forces, largest);
+  return residual(s, forces, largest(loads));
 }
 
 TEST_P(PatchTest, TractionsBalanceConstantStress) {
@@ -103,9 +89,7 @@ void expect_equilibrium_with_prescribed_faces(Integration integration) {
   move(state, s, linear);
   Forces forces(s);
   forces.evaluate(state, {walls, {}, {}}, 0.0);
-  double boundary_force = 0.0;
-  for (const Vec3& r : forces.reactions()) boundary_force = std::max(boundary_force, norm(r));
-  EXPECT_LT(residual(s, forces, boundary_force), 1e-10);
+  EXPECT_LT(residual(s, forces, largest(forces.reactions())), 1e-10);
 }
 
 TEST(PatchTestOfVariationalGhosts, PassesWithPrescribedFaces) {
