@@ -41,6 +41,24 @@ void check(const ProbeSpec& spec) {
   if (reads_quantity) find_quantity(spec.quantity, spec.origin);
 }
 
+/// Diagonal of the box around all particles [m].
+double size_of(const Snapshot& snapshot) {
+  Vec3 lower = snapshot.reference_position.front(), upper = lower;
+  for (const Vec3& X : snapshot.reference_position)
+    for (int i = 0; i < 3; ++i) lower[i] = std::min(lower[i], X[i]), upper[i] = std::max(upper[i], X[i]);
+  return norm(upper - lower);
+}
+
+/// The motion of a particle says nothing of a point that is farther from it than all bodies together are large.
+void refuse_distant_point(const ProbeSpec& spec, const Snapshot& snapshot, Index nearest) {
+  const Vec3& X = *spec.at;
+  const double distance = norm(X - snapshot.reference_position[at(nearest)]), size = size_of(snapshot);
+  if (size == 0.0 || distance <= size) return;
+  throw InputError(spec.origin, fmt::format("probe \"{}\": at = ({:g}, {:g}, {:g}) m is {:.3g} m away from the nearest "
+                                            "particle, but all particles lie within {:.3g} m; is a unit missing?",
+                                            spec.name, X.x, X.y, X.z, distance, size));
+}
+
 }  // namespace
 
 Index nearest_particle(const Snapshot& snapshot, std::span<const Index> candidates, const Vec3& X) {
@@ -54,7 +72,10 @@ BoundProbe bind_probe(const ProbeSpec& spec, const Snapshot& snapshot, std::vect
   if (spec.kind == ProbeKind::reaction) return {spec, {}};
   if (candidates.empty())
     throw InputError(spec.origin, fmt::format("probe \"{}\" takes no particle; widen `where`", spec.name));
-  if (spec.kind == ProbeKind::point) candidates = {nearest_particle(snapshot, candidates, *spec.at)};
+  if (spec.kind == ProbeKind::point) {
+    candidates = {nearest_particle(snapshot, candidates, *spec.at)};
+    refuse_distant_point(spec, snapshot, candidates.front());
+  }
   return {spec, std::move(candidates)};
 }
 

@@ -22,7 +22,8 @@ struct BoundProbe {
 Index nearest_particle(const Snapshot& snapshot, std::span<const Index> candidates, const Vec3& X);
 
 /// Ties a probe to the particles that it may read: those of its body that `where` takes. Throws InputError at the
-/// spec's origin when there are none, or when `at` (point) or a known `quantity` (average, maximum) is missing.
+/// spec's origin when there are none, when `at` (point) or a known `quantity` (average, maximum) is missing, or when
+/// `at` is farther from the nearest of them than the box around all particles is large.
 BoundProbe bind_probe(const ProbeSpec& spec, const Snapshot& snapshot, std::vector<Index> candidates);
 
 /// The probe's columns, each named NAME.SOMETHING:

@@ -44,6 +44,24 @@ TEST(Probes, PointMovesWithTheNearestParticle) {
   EXPECT_EQ(names(point), "tip.x[m] tip.y[m] tip.z[m] ");
 }
 
+/// A point in millimetres that was meant in metres, or the other way round.
+TEST(Probes, RefusePointsFarFromAllBodies) {
+  ProbeSpec point = spec(ProbeKind::point);
+  const Snapshot s = sample::snapshot();  // particles within a box of 0.866 m
+  point.at = Vec3{1.6, 0.75, 0.75};
+  EXPECT_NO_THROW(bind_probe(point, s, all()));
+  point.at = Vec3{500, 0.75, 0.75};
+  try {
+    bind_probe(point, s, all());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "case.toml:4:2: probe: probe \"tip\": at = (500, 0.75, 0.75) m is 499 m away from the nearest particle, but "
+        "all particles lie within 0.866 m; is a unit missing?");
+  }
+}
+
 TEST(Probes, OfEquallyNearParticlesTheFirstIsTaken) {
   const std::vector<Index> candidates = {4, 5, 6, 7};
   EXPECT_EQ(nearest_particle(sample::snapshot(), candidates, {0.5, 0.5, 0.5}), 4);
