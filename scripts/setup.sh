@@ -13,8 +13,8 @@ optional=()  # what only some tests need
 list_only=no
 for argument in "$@"; do
   case "$argument" in
-    # Read result files as ParaView does; count instructions; build the benchmarks.
-    --test) optional+=(python3-vtk9 python3-numpy valgrind libbenchmark-dev) ;;
+    # Read result files as ParaView does; count instructions; build the benchmarks; mesh surfaces with gmsh.
+    --test) optional+=(python3-vtk9 python3-numpy valgrind libbenchmark-dev gmsh) ;;
     --list) list_only=yes ;;
     *) echo "setup.sh: unknown argument '$argument' (allowed: --test, --list)" >&2; exit 2 ;;
   esac

@@ -61,11 +61,21 @@ struct MeshFileSpec {
   std::string path;
 };
 
+/// Which program fills what a surface encloses with tetrahedra; automatic: CGAL where the build has it, else Gmsh.
+enum class Mesher { automatic, cgal, gmsh };
+
+/// What a case wants of the mesher, beside the spacing or the number of particles.
+struct MesherSpec {
+  std::optional<Mesher> mesher;
+  std::optional<Formula> size;  // local length of edges up to a factor: only ratios count
+};
+
 struct ParticleSpec {
   std::variant<LatticeSpec, PointFileSpec, MeshFileSpec, RandomSpec, RelaxedSpec> source;
   Origin origin;
   int dimension = 3;                   // 2: irregular arrangements lie in the middle plane of a slab along z
   std::optional<Formula> radius = {};  // of power cells [m], taken where the particles are in the end
+  MesherSpec mesher = {};              // for delaunay bodies in surfaces only
 };
 
 /// Where a formulation wants its particles: in the centres of lattice cells (voronoi) or on the lattice's

@@ -56,6 +56,20 @@ RelaxedSpec build_relaxed(const Reader& t) {
   return relaxed;
 }
 
+/// For tetrahedra in a surface; refused with all that is placed otherwise.
+MesherSpec build_mesher(const Reader& t) {
+  MesherSpec spec;
+  if (t.has("mesher")) spec.mesher = t.text("mesher") == "gmsh" ? Mesher::gmsh : Mesher::cgal;
+  if (t.has("size")) spec.size = material_formula(t, "size");
+  return spec;
+}
+
+void refuse_beside(const Reader& t, const char* key, const std::string& arrangement) {
+  if (t.has(key))
+    throw InputError(t.origin_of(key),
+                     fmt::format("has no effect with arrangement = \"{}\"; leave one of the two out", arrangement));
+}
+
 ParticleSpec build_particles(const Reader& t, const MethodSpec& method) {
   ParticleSpec particles;
   particles.origin = t.origin();
@@ -71,13 +85,16 @@ ParticleSpec build_particles(const Reader& t, const MethodSpec& method) {
     particles.source = MeshFileSpec{t.text("mesh")};
     particles.origin = t.origin_of("mesh");
   } else if (t.text("arrangement") == "random") {
+    for (const char* key : {"size", "mesher"}) refuse_beside(t, key, "random");
     particles.source = RandomSpec{{count_of(t), t.optional_number("spacing")}, seed_of(t)};
     particles.origin = t.origin_of("arrangement");
   } else if (t.text("arrangement") == "relaxed") {
+    refuse_beside(t, "mesher", "relaxed");
     particles.source = build_relaxed(t);
     particles.origin = t.origin_of("arrangement");
   } else {
     particles.source = build_lattice(t, method.dimension);
+    particles.mesher = build_mesher(t);
   }
   return particles;
 }

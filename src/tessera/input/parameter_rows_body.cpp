@@ -97,10 +97,18 @@ Rows body_rows() {
                    "square of this."},
       {.key = "body.particles.size",
        .kind = formula,
-       .only_with = {"arrangement=relaxed"},
+       .only_with = {"spacing", "count"},
        .sentence =
            "Local spacing, up to a factor, as a formula in X, Y and Z: fine where it is small; spacing or count "
-           "sets how many particles there are in all."},
+           "sets how many particles there are in all. For arrangement = \"relaxed\", and for delaunay bodies "
+           "in shapes other than boxes and polygons, where it is the length of edges."},
+      {.key = "body.particles.mesher",
+       .kind = choice,
+       .choices = {"cgal", "gmsh"},
+       .only_with = {"spacing", "count"},
+       .sentence = "What fills a delaunay body in a shape other than boxes and polygons with tetrahedra: CGAL's Mesh_3 "
+                   "(in builds with TESSERA_WITH_CGAL) or the program gmsh (on the search path). When missing, CGAL if "
+                   "the build has it, else gmsh."},
       {.key = "body.particles.file",
        .kind = path,
        .sentence = "CSV file of particle positions in m with the header x,y,z, or x,y,z,radius for power cells."},

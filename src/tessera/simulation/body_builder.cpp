@@ -365,11 +365,28 @@ std::vector<BoundaryCondition> conditions_on(const Case& c, const BodySpec& body
   return conditions;
 }
 
+namespace {
+
+void refuse_wishes_without_mesher(const ParticleSpec& particles) {
+  const auto refuse = [&](const char* key) {
+    throw InputError(
+        particles.origin,
+        fmt::format("{} is for the mesher, which fills delaunay bodies in shapes that are not made of boxes "
+                    "or of one polygon; leave it out",
+                    key));
+  };
+  if (particles.mesher.mesher) refuse("mesher");
+  if (particles.mesher.size) refuse("size without arrangement = \"relaxed\"");
+}
+
+}  // namespace
+
 BuiltBody build_body(const Case& c, const BodySpec& body, const std::vector<BoundaryCondition>& conditions) {
   const bool voronoi = c.method.formulation == Formulation::voronoi;
   if (voronoi && !body.shape) throw InputError(body.origin, "a voronoi body needs a shape");
   std::optional<Solid> solid;
   if (body.shape && has_convex_pieces(*body.shape)) solid = build_solid(*body.shape);
+  if (voronoi || solid || !body.shape) refuse_wishes_without_mesher(body.particles);
   if (voronoi && !solid) return build_in_surface(c, body, conditions);
   BuiltBody b = voronoi ? build_voronoi(c, body, *solid, conditions) : build_delaunay(c, body, solid, conditions);
   b.solid = std::move(solid);

@@ -98,6 +98,17 @@ std::vector<BoundaryTriangle> boundary_of(const TetrahedralMesh& mesh, const Tri
   return boundary;
 }
 
+/// The mesher that is meant by automatic.
+Mesher available(Mesher wanted) {
+  if (wanted != Mesher::automatic) return wanted;
+  if (has_cgal_mesher()) return Mesher::cgal;
+  if (has_gmsh()) return Mesher::gmsh;
+  throw GeometryError(
+      "nothing here can mesh surfaces: this build is without CGAL's Mesh_3 (GPL; build with TESSERA_WITH_CGAL=ON), and "
+      "the program gmsh is not on the search path (Debian: apt-get install gmsh); install one of them, or give a mesh "
+      "that another program made: particles = { mesh = \"part.msh\" }");
+}
+
 void sort_points(RawMesh& raw) {
   std::vector<Index> order(raw.points.size()), place(raw.points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
@@ -125,7 +136,10 @@ SurfaceMesh mesh_surface(const TriangleSurface& surface, const SurfaceMeshSpec& 
   if (expected > most_particles)
     throw GeometryError(fmt::format("a spacing of {:g} m makes about {:.2g} particles; the most is {:g}", spec.spacing,
                                     expected, most_particles));
-  RawMesh raw = mesh_with_cgal(surface, surface_features(surface, spec.feature_angle), spec.spacing);
+  made.mesher = available(spec.mesher);
+  const SurfaceFeatures features = surface_features(surface, spec.feature_angle);
+  RawMesh raw =
+      made.mesher == Mesher::gmsh ? mesh_with_gmsh(surface, features, spec) : mesh_with_cgal(surface, features, spec);
   if (raw.tetrahedra.empty())
     throw GeometryError("the spacing is too coarse to mesh the surface at all; make particles.spacing smaller");
   sort_points(raw);

@@ -34,6 +34,21 @@ constexpr double cell_size = 1.0, facet_size = 0.85;
 // How far facets may be from a curved side, in spacings.
 constexpr double facet_distance = 0.05;
 
+/// The local length of edges, times a factor, as CGAL asks for it.
+struct Size {
+  using FT = Kernel::FT;
+  using Point_3 = Point;
+  using Index = Domain::Index;
+
+  const SurfaceMeshSpec& spec;
+  double factor = 1.0;
+
+  Size times(double f) const { return {spec, f * factor}; }
+  FT operator()(const Point_3& p, int, const Index&) const {
+    return factor * (spec.size ? spec.size({p.x(), p.y(), p.z()}) : spec.spacing);
+  }
+};
+
 Point to_cgal(const Vec3& X) { return {X.x, X.y, X.z}; }
 
 /// With the number of its patch, from one, at every face.
@@ -78,19 +93,21 @@ RawMesh from_cgal(const Complex& complex) {
 
 }  // namespace
 
-bool has_surface_mesher() { return true; }
+bool has_cgal_mesher() { return true; }
 
-RawMesh mesh_with_cgal(const TriangleSurface& surface, const SurfaceFeatures& features, double spacing) {
+RawMesh mesh_with_cgal(const TriangleSurface& surface, const SurfaceFeatures& features, const SurfaceMeshSpec& spec) {
   CGAL::get_default_random() = CGAL::Random(0);  // else seeded by the clock
   const Polyhedron polyhedron = to_cgal(surface, features.patch);
   Domain domain(polyhedron, &CGAL::get_default_random());
   const auto lines = to_cgal(features.lines, surface);
   domain.add_features(lines.begin(), lines.end());
   namespace params = CGAL::parameters;
-  const Criteria criteria(params::edge_size = spacing, params::facet_angle = 25.0,
-                          params::facet_size = facet_size * spacing, params::facet_distance = facet_distance * spacing,
+  const Size size{spec};
+  const Criteria criteria(params::edge_size = size, params::facet_angle = 25.0,
+                          params::facet_size = size.times(facet_size),
+                          params::facet_distance = size.times(facet_distance),
                           params::facet_topology = CGAL::FACET_VERTICES_ON_SAME_SURFACE_PATCH,
-                          params::cell_radius_edge_ratio = 2.0, params::cell_size = cell_size * spacing);
+                          params::cell_radius_edge_ratio = 2.0, params::cell_size = size.times(cell_size));
   // Perturbing and exuding slivers depends on addresses in memory, and with it the particles would.
   return from_cgal(CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude()));
 }
@@ -101,13 +118,13 @@ RawMesh mesh_with_cgal(const TriangleSurface& surface, const SurfaceFeatures& fe
 
 namespace tessera {
 
-bool has_surface_mesher() { return false; }
+bool has_cgal_mesher() { return false; }
 
-RawMesh mesh_with_cgal(const TriangleSurface&, const SurfaceFeatures&, double) {
+RawMesh mesh_with_cgal(const TriangleSurface&, const SurfaceFeatures&, const SurfaceMeshSpec&) {
   throw GeometryError(
-      "this build cannot mesh surfaces (it is without CGAL's Mesh_3, which is GPL); build with TESSERA_WITH_CGAL=ON, "
-      "or "
-      "give a mesh that another program made, for example Gmsh: particles = { mesh = \"part.msh\" }");
+      "mesher = \"cgal\" is not in this build (CGAL's Mesh_3 is GPL); build with TESSERA_WITH_CGAL=ON, or take mesher "
+      "= "
+      "\"gmsh\", or give a mesh that another program made: particles = { mesh = \"part.msh\" }");
 }
 
 }  // namespace tessera

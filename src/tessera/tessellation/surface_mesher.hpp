@@ -8,12 +8,17 @@
 
 namespace tessera {
 
-/// Points and tetrahedra of Mesh_3, with the lines kept; without sides, in no particular order. Throws GeometryError
-/// when this build has no CGAL.
+/// Points and tetrahedra of a mesher, with the lines kept; without sides, in no particular order.
 struct RawMesh {
   std::vector<Vec3> points;
   std::vector<Tetrahedron> tetrahedra;
 };
-RawMesh mesh_with_cgal(const TriangleSurface& surface, const SurfaceFeatures& features, double spacing);
+
+/// By CGAL's Mesh_3. Throws GeometryError when this build has no CGAL.
+RawMesh mesh_with_cgal(const TriangleSurface& surface, const SurfaceFeatures& features, const SurfaceMeshSpec& spec);
+
+/// By the program gmsh, in a folder of temporary files that is gone afterwards. Throws GeometryError when there is no
+/// such program, or with what it says when it fails.
+RawMesh mesh_with_gmsh(const TriangleSurface& surface, const SurfaceFeatures& features, const SurfaceMeshSpec& spec);
 
 }  // namespace tessera

@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
 #include <map>
 
 #include "support/surfaces.hpp"
@@ -42,11 +48,22 @@ TEST(SurfaceFeatures, AreLinesBetweenSides) {
   EXPECT_EQ(patches(features), 2U);
 }
 
-class SurfaceMeshes : public testing::Test {
+/// By each of the two meshers; Gmsh puts chords of a spacing on curved sides, CGAL shorter ones where they bend.
+class SurfaceMeshes : public testing::TestWithParam<Mesher> {
   void SetUp() override {
-    if (!has_surface_mesher()) GTEST_SKIP() << "built without a mesher";
+    if (GetParam() == Mesher::cgal && !has_cgal_mesher()) GTEST_SKIP() << "built without CGAL's mesher";
+    if (GetParam() == Mesher::gmsh && !has_gmsh()) GTEST_SKIP() << "the program gmsh is not installed";
+  }
+
+ protected:
+  static SurfaceMesh mesh(const TriangleSurface& surface, double spacing,
+                          std::function<double(const Vec3&)> size = {}) {
+    return mesh_surface(surface, {.spacing = spacing, .mesher = GetParam(), .size = std::move(size)});
   }
 };
+
+INSTANTIATE_TEST_SUITE_P(By, SurfaceMeshes, testing::Values(Mesher::cgal, Mesher::gmsh),
+                         [](const auto& test) { return std::string(test.param == Mesher::gmsh ? "gmsh" : "cgal"); });
 
 std::map<std::string, double> areas(const TetrahedralMesh& mesh) {
   std::map<std::string, double> sums;
@@ -66,9 +83,9 @@ double largest_distance(const TetrahedralMesh& mesh, const TriangleSurface& surf
   return distance;
 }
 
-TEST_F(SurfaceMeshes, AreExactOnPlaneSides) {
+TEST_P(SurfaceMeshes, AreExactOnPlaneSides) {
   const TriangleSurface box = turned(box_surface({0, 0, 0}, {1, 0.8, 0.5}), 0.7);
-  const SurfaceMesh made = mesh_surface(box, {0.2});
+  const SurfaceMesh made = mesh(box, 0.2);
   EXPECT_NEAR(made.volume, 0.4, 1e-13);
   EXPECT_LT(largest_distance(made.mesh, box), 1e-13);
   const auto sums = areas(made.mesh);
@@ -80,23 +97,23 @@ TEST_F(SurfaceMeshes, AreExactOnPlaneSides) {
   EXPECT_LT(made.mesh.points.size(), 400U);
 }
 
-TEST_F(SurfaceMeshes, ApproachCurvedSides) {
+TEST_P(SurfaceMeshes, ApproachCurvedSides) {
   const TriangleSurface ball = ball_surface(1.0, 40, 80);
   double error = 0.0;
   for (const double spacing : {0.4, 0.2}) {
-    const SurfaceMesh made = mesh_surface(ball, {spacing});
+    const SurfaceMesh made = mesh(ball, spacing);
     EXPECT_LT(largest_distance(made.mesh, ball), 1e-12);
     const double e = 1.0 - made.volume / made.surface_volume;
     EXPECT_GT(e, 0.0);
     if (spacing == 0.4) error = e;
     EXPECT_TRUE(spacing == 0.4 || e < 0.6 * error) << e;
   }
-  EXPECT_LT(error, 0.05);
+  EXPECT_LT(error, GetParam() == Mesher::gmsh ? 0.06 : 0.05);
 }
 
-TEST_F(SurfaceMeshes, FillSolidsWithHoles) {
+TEST_P(SurfaceMeshes, FillSolidsWithHoles) {
   const TriangleSurface torus = torus_surface(1.0, 0.4, 48, 24);
-  const SurfaceMesh made = mesh_surface(torus, {0.2});
+  const SurfaceMesh made = mesh(torus, 0.2);
   EXPECT_NEAR(made.volume / made.surface_volume, 1.0, 0.03);
   // Euler's number of a torus: V - E + F = 0 on its boundary, and E = 3 F / 2.
   std::vector<char> on_boundary(made.mesh.points.size(), 0);
@@ -106,26 +123,126 @@ TEST_F(SurfaceMeshes, FillSolidsWithHoles) {
   EXPECT_EQ(2 * vertices, static_cast<std::ptrdiff_t>(made.mesh.boundary.size()));
 }
 
-TEST_F(SurfaceMeshes, AreTheSameOnEveryCall) {
+TEST_P(SurfaceMeshes, AreTheSameOnEveryCall) {
   const TriangleSurface torus = torus_surface(1.0, 0.4, 24, 10);
-  const SurfaceMesh one = mesh_surface(torus, {0.3}), two = mesh_surface(torus, {0.3});
+  const SurfaceMesh one = mesh(torus, 0.3), two = mesh(torus, 0.3);
   EXPECT_EQ(one.mesh.points, two.mesh.points);
   EXPECT_EQ(one.mesh.tetrahedra, two.mesh.tetrahedra);
 }
 
-TEST_F(SurfaceMeshes, RefuseMoreParticlesThanFit) {
-  EXPECT_THROW(mesh_surface(ball_surface(1.0, 12, 24), {1e-4}), GeometryError);
+TEST_P(SurfaceMeshes, RefuseMoreParticlesThanFit) {
+  EXPECT_THROW(mesh(ball_surface(1.0, 12, 24), 1e-4), GeometryError);
+}
+
+/// A line between sides in a plane is no sharp edge, but kept.
+TEST_P(SurfaceMeshes, KeepLinesBetweenSidesInAPlane) {
+  TriangleSurface box = box_surface({0, 0, 0}, {1, 0.8, 0.5});
+  for (Index t = 0; t < box.size(); ++t) {
+    const auto [a, b, c] = box.corners(t);
+    if (a.z + b.z + c.z < 1.5) continue;  // the top is two triangles
+    box.side[static_cast<std::size_t>(t)] = static_cast<Index>(box.side_names.size());
+    box.side_names.push_back(t % 2 == 0 ? "even" : "odd");
+  }
+  const auto sums = areas(mesh(box, 0.2).mesh);
+  EXPECT_NEAR(sums.at("even"), 0.4, 1e-12);
+  EXPECT_NEAR(sums.at("odd"), 0.4, 1e-12);
+}
+
+TEST_P(SurfaceMeshes, LeaveCavitiesEmpty) {
+  TriangleSurface hollow = box_surface({0, 0, 0}, {1, 1, 1});
+  const TriangleSurface hole = box_surface({0.3, 0.3, 0.3}, {0.7, 0.7, 0.7});
+  const auto first = static_cast<Index>(hollow.vertices.size());
+  hollow.vertices.insert(hollow.vertices.end(), hole.vertices.begin(), hole.vertices.end());
+  for (const Triangle& t : hole.triangles) {
+    hollow.triangles.push_back({first + t[0], first + t[2], first + t[1]});
+    hollow.side.push_back(0);
+  }
+  EXPECT_NEAR(mesh(hollow, 0.2).volume, 1.0 - 0.064, 1e-12);
+}
+
+TEST_P(SurfaceMeshes, FollowALocalSize) {
+  const TriangleSurface box = box_surface({0, 0, 0}, {1, 1, 1});
+  const SurfaceMesh made = mesh(box, 0.2, [](const Vec3& X) { return 0.08 + 0.24 * X.x; });
+  const auto fine =
+      std::count_if(made.mesh.points.begin(), made.mesh.points.end(), [](const Vec3& X) { return X.x < 0.25; });
+  const auto coarse =
+      std::count_if(made.mesh.points.begin(), made.mesh.points.end(), [](const Vec3& X) { return X.x > 0.75; });
+  EXPECT_GT(fine, 5 * coarse);
+  EXPECT_NEAR(made.volume, 1.0, 1e-12);
+}
+
+/// Sets PATH while it lives.
+class SearchPath {
+ public:
+  explicit SearchPath(const std::string& path) : before_(std::getenv("PATH")) { setenv("PATH", path.c_str(), 1); }
+  ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
+
+ private:
+  std::string before_;
+};
+
+std::string message_of(const SurfaceMeshSpec& spec) {
+  try {
+    mesh_surface(ball_surface(1.0, 6, 12), spec);
+  } catch (const GeometryError& e) {
+    return e.what();
+  }
+  return "no error";
 }
 
 TEST(SurfaceMesh, SaysWhatIsMissingWithoutAMesher) {
-  if (has_surface_mesher()) GTEST_SKIP() << "there is one";
-  try {
-    mesh_surface(ball_surface(1.0, 6, 12), {0.3});
-    FAIL();
-  } catch (const GeometryError& e) {
-    EXPECT_NE(std::string(e.what()).find("TESSERA_WITH_CGAL"), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find("mesh = \"part.msh\""), std::string::npos) << e.what();
+  const SearchPath nowhere("/nonexistent");
+  EXPECT_NE(message_of({.spacing = 0.3, .mesher = Mesher::gmsh}).find("apt-get install gmsh"), std::string::npos);
+  if (has_cgal_mesher()) return;
+  EXPECT_NE(message_of({.spacing = 0.3, .mesher = Mesher::cgal}).find("TESSERA_WITH_CGAL"), std::string::npos);
+  const std::string text = message_of({.spacing = 0.3});
+  for (const char* cure : {"TESSERA_WITH_CGAL", "apt-get install gmsh", "mesh = \"part.msh\""})
+    EXPECT_NE(text.find(cure), std::string::npos) << text;
+}
+
+/// A program that calls itself gmsh and does what `script` says.
+class FalseGmsh {
+ public:
+  explicit FalseGmsh(const std::string& script) : folder_(testing::TempDir() + "false-gmsh") {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ + "/gmsh") << "#!/bin/sh\n" << script;
+    std::filesystem::permissions(folder_ + "/gmsh", std::filesystem::perms::owner_all);
   }
+  ~FalseGmsh() { std::filesystem::remove_all(folder_); }
+  std::string path() const { return folder_ + ":/usr/bin:/bin"; }
+
+ private:
+  std::string folder_;
+};
+
+TEST(SurfaceMesh, TellsWhatGmshComplainsOf) {
+  const FalseGmsh gmsh("echo 'Info : so far'\necho 'Error   : Surfaces overlap' >&2\necho 'Error : ----'\nexit 1\n");
+  const SearchPath path(gmsh.path());
+  const std::string text = message_of({.spacing = 0.3, .mesher = Mesher::gmsh});
+  EXPECT_NE(text.find("ended with status 1"), std::string::npos) << text;
+  EXPECT_NE(text.find("saying: Surfaces overlap;"), std::string::npos) << text;
+}
+
+TEST(SurfaceMesh, RefusesAGmshThatLeavesNoMesh) {
+  const FalseGmsh gmsh("exit 0\n");
+  const SearchPath path(gmsh.path());
+  const std::string text = message_of({.spacing = 0.3, .mesher = Mesher::gmsh});
+  EXPECT_NE(text.find("left no mesh"), std::string::npos) << text;
+}
+
+TEST(SurfaceMesh, LeavesNoTemporaryFilesOfGmsh) {
+  const FalseGmsh gmsh("ls \"$GMSH_HOME\" > \"" + testing::TempDir() + "seen\"\nexit 1\n");
+  const SearchPath path(gmsh.path());
+  const std::string home = testing::TempDir() + "meshes";
+  std::filesystem::create_directories(home);
+  setenv("TMPDIR", home.c_str(), 1);
+  message_of({.spacing = 0.3, .mesher = Mesher::gmsh});
+  unsetenv("TMPDIR");
+  std::ifstream seen(testing::TempDir() + "seen");
+  const std::string files((std::istreambuf_iterator<char>(seen)), {});
+  EXPECT_NE(files.find("surface.msh"), std::string::npos) << files;
+  EXPECT_TRUE(std::filesystem::is_empty(home));
+  std::filesystem::remove_all(home);
 }
 
 }  // namespace
