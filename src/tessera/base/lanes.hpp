@@ -6,21 +6,31 @@ namespace tessera {
 /// component of four vectors or tensors. Arrays of it are Fields: the compiler takes its alignment for granted.
 using Double4 = double __attribute__((vector_size(32)));
 
+/// The same in registers of 512 bits, for kernels that know they have them.
+using Double8 = double __attribute__((vector_size(64)));
 using Double2 = double __attribute__((vector_size(16)));
 using Mask4 = long long __attribute__((vector_size(32)));
 
-/// Four vectors, component by component.
-struct Lanes3 {
-  Double4 x{}, y{}, z{};
+/// Several vectors, component by component.
+template <class Lanes>
+struct Lanes3Of {
+  Lanes x{}, y{}, z{};
 };
+using Lanes3 = Lanes3Of<Double4>;
 
 /// Four tensors, component by component; rc is row r, column c.
 struct Lanes9 {
   Double4 xx{}, xy{}, xz{}, yx{}, yy{}, yz{}, zx{}, zy{}, zz{};
 };
 
-inline Lanes3 operator+(const Lanes3& a, const Lanes3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Lanes3 operator-(const Lanes3& a, const Lanes3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+template <class Lanes>
+inline Lanes3Of<Lanes> operator+(const Lanes3Of<Lanes>& a, const Lanes3Of<Lanes>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Lanes>
+inline Lanes3Of<Lanes> operator-(const Lanes3Of<Lanes>& a, const Lanes3Of<Lanes>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 inline Lanes3 operator*(const Double4& s, const Lanes3& a) { return {s * a.x, s * a.y, s * a.z}; }
 
 inline double sum(const Double4& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
@@ -61,6 +71,29 @@ inline TwoLanes load_pairs(const double* row0, const double* row1, const double*
   const Double4 rows02 = __builtin_shufflevector(load(row0), load(row2), 0, 1, 2, 3),
                 rows13 = __builtin_shufflevector(load(row1), load(row3), 0, 1, 2, 3);
   return {__builtin_shuffle(rows02, rows13, Mask4{0, 4, 2, 6}), __builtin_shuffle(rows02, rows13, Mask4{1, 5, 3, 7})};
+}
+
+/// Four consecutive numbers of eight rows: the first of each, the second of each, and so on.
+struct FourOfEight {
+  Double8 n0, n1, n2, n3;
+};
+/// `k`: of the first number in its row.
+inline FourOfEight load_fours(const double* const (&row)[8], int k) {
+  const auto both = [&](int low, int high) {
+    Double4 l, h;
+    __builtin_memcpy(&l, row[low] + k, sizeof l);
+    __builtin_memcpy(&h, row[high] + k, sizeof h);
+    return __builtin_shufflevector(l, h, 0, 1, 2, 3, 4, 5, 6, 7);
+  };
+  const Double8 rows02 = both(0, 2), rows13 = both(1, 3), rows46 = both(4, 6), rows57 = both(5, 7);
+  const Double8 even0 = __builtin_shufflevector(rows02, rows13, 0, 8, 2, 10, 4, 12, 6, 14),
+                odd0 = __builtin_shufflevector(rows02, rows13, 1, 9, 3, 11, 5, 13, 7, 15),
+                even4 = __builtin_shufflevector(rows46, rows57, 0, 8, 2, 10, 4, 12, 6, 14),
+                odd4 = __builtin_shufflevector(rows46, rows57, 1, 9, 3, 11, 5, 13, 7, 15);
+  return {__builtin_shufflevector(even0, even4, 0, 1, 4, 5, 8, 9, 12, 13),
+          __builtin_shufflevector(odd0, odd4, 0, 1, 4, 5, 8, 9, 12, 13),
+          __builtin_shufflevector(even0, even4, 2, 3, 6, 7, 10, 11, 14, 15),
+          __builtin_shufflevector(odd0, odd4, 2, 3, 6, 7, 10, 11, 14, 15)};
 }
 
 /// Natural logarithms of positive, finite, normal numbers, to one unit in the last place; of others the result has no

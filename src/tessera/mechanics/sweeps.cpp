@@ -8,13 +8,6 @@
 
 namespace tessera {
 
-namespace {
-
-// How far ahead gradient vectors are fetched, about four particles: the processor's own prefetcher stops at pages.
-constexpr Index bytes_ahead = 1536;
-
-}  // namespace
-
 StressSums& StressSums::operator+=(const StressSums& o) {
   internal += o.internal;
   contact += o.contact;
@@ -57,93 +50,16 @@ TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Ten
     const Double4 x_a[quad] = {x_local[order[0]], x_local[order[1]], x_local[order[2]], x_local[order[3]]};
     Columns VF[quad]{};
     for (Index i = 0; i < length[q]; ++i, neighbour += quad, B += quad) {
-      __builtin_prefetch(reinterpret_cast<const char*>(B) + bytes_ahead);
-      __builtin_prefetch(reinterpret_cast<const char*>(B) + bytes_ahead + 64);
+      fetch_ahead<1536>(B);
+      fetch_ahead<1600>(B);
+      fetch_ahead<512>(neighbour);
       for (Index lane = 0; lane < quad; ++lane) add_outer(VF[lane], x_local[neighbour[lane]] - x_a[lane], B[lane]);
     }
+    for (Index line = 0; line < 5; ++line)
+      fetch_to_write<6912>(reinterpret_cast<const char*>(F_own + quad * q) + 64 * line);
     const Index lanes = std::min(quad, own - quad * q);
     for (Index lane = 0; lane < lanes; ++lane) store(F_own[order[lane]], (1.0 / volume[order[lane]]) * VF[lane]);
   }
-}
-
-namespace {
-
-/// Sums over the bonds of four particles.
-struct BondSums {
-  Lanes3 force;                         // sum dU/dx
-  Lanes3 moment_0, moment_1, moment_2;  // the columns of - sum dU/dy (x) X
-  Double4 energy{};                     // twice the bonds' energies
-};
-
-struct ContactStiffness {
-  double tangential, difference;  // Kt and Kn - Kt per area over length [Pa]
-};
-
-/// Adds a bond of each of four particles to the sums; the same as bond_response().
-inline void add_bonds(const FourNodes& a, const FourNodes& b, const Double4& area_over_length,
-                      ContactStiffness stiffness, BondSums& sums) {
-  const Lanes3 X = b.X - a.X, x = b.x - a.x;
-  const Lanes3 F0 = a.F0 + b.F0, F1 = a.F1 + b.F1, F2 = a.F2 + b.F2;
-  const Lanes3 u{x.x - F0.x * X.x - F1.x * X.y - F2.x * X.z, x.y - F0.y * X.x - F1.y * X.y - F2.y * X.z,
-                 x.z - F0.z * X.x - F1.z * X.y - F2.z * X.z};  // [D 7]
-  const Double4 inverse_square = 1.0 / (x.x * x.x + x.y * x.y + x.z * x.z);
-  const Double4 p = (u.x * x.x + u.y * x.y + u.z * x.z) * inverse_square;  // u^n = p x_ab, [D 10]
-  const Double4 K = area_over_length * stiffness.tangential, q = (area_over_length * stiffness.difference) * p;
-  const Lanes3 elastic{K * u.x + q * x.x, K * u.y + q * x.y, K * u.z + q * x.z};  // -dU/dy, [D 58]
-  const auto add_moment = [&](Lanes3& column, const Double4& X_j) {
-    column.x += elastic.x * X_j;
-    column.y += elastic.y * X_j;
-    column.z += elastic.z * X_j;
-  };
-  add_moment(sums.moment_0, X.x);
-  add_moment(sums.moment_1, X.y);
-  add_moment(sums.moment_2, X.z);
-  sums.force.x += elastic.x + q * (u.x - p * x.x);  // dU/dx, [D 57]
-  sums.force.y += elastic.y + q * (u.y - p * x.y);
-  sums.force.z += elastic.z + q * (u.z - p * x.z);
-  sums.energy += elastic.x * u.x + elastic.y * u.y + elastic.z * u.z;
-}
-
-}  // namespace
-
-TESSERA_KERNEL double contact_sweep(const System& s, Index k, const Double4* x, const Tensor* F, Double4* f,
-                                    TileScratch& scratch) {
-  const Tile& tile = tile_of(s, k);
-  fill_nodes(s, k, x, F, scratch.nodes.data());
-  const Material& m = s.materials[static_cast<std::size_t>(tile.material)];
-  const double Kn = m.contact.normal * m.young, Kt = m.contact.tangential * m.shear_modulus();
-  const ContactStiffness stiffness{Kt, Kn - Kt};
-  const TileNode* nodes = scratch.nodes.data();
-  Columns* __restrict T = scratch.T.data();
-  Double4* __restrict f_own = f + tile.begin;
-  const std::uint16_t* neighbour = s.tiles.neighbour.data() + tile.slot;
-  const auto* area_over_length = s.tiles.area_over_length.data() + tile.slot;
-  const std::uint16_t* order = s.tiles.order.data() + quad * tile.quad;
-  const std::uint16_t* length = s.tiles.length.data() + tile.quad;
-  const double* volume = s.d.volume.data() + tile.begin;
-  // The next sweep reads the gradient vectors of the tile in another order, so they are brought near.
-  const char* B = reinterpret_cast<const char*>(s.tiles.B.data() + tile.slot);
-  Double4 energy{};
-  for (Index q = 0; q < tile.quads(); ++q, order += quad) {
-    const FourNodes a = load_nodes(nodes, order);
-    BondSums sums;
-    for (Index i = 0; i < length[q]; ++i, neighbour += quad, area_over_length += quad, B += quad * sizeof(Vec3)) {
-      __builtin_prefetch(B);
-      __builtin_prefetch(B + 64);
-      const Double4 A_L{area_over_length[0], area_over_length[1], area_over_length[2], area_over_length[3]};
-      add_bonds(a, load_nodes(nodes, neighbour), A_L, stiffness, sums);
-    }
-    energy += sums.energy;
-    const Double4 share = -0.5 / Double4{volume[order[0]], volume[order[1]], volume[order[2]], volume[order[3]]};
-    const FourVectors force = transposed(sums.force), T0 = transposed(share * sums.moment_0),
-                      T1 = transposed(share * sums.moment_1), T2 = transposed(share * sums.moment_2);
-    const Index lanes = std::min(quad, tile.size() - quad * q);
-    for (Index lane = 0; lane < lanes; ++lane) {
-      f_own[order[lane]] = force.v[lane];
-      T[order[lane]] = {T0.v[lane], T1.v[lane], T2.v[lane]};
-    }
-  }
-  return 0.25 * sum(energy);
 }
 
 namespace {
@@ -236,6 +152,7 @@ TESSERA_KERNEL void force_sweep(const System& s, Index k, const Columns* T, cons
   const Vec3* B_tile = B + tile.slot;
   const auto received = [&](Index bonds) {
     Double4 sum_0{}, sum_1{}, sum_2{};
+    fetch_ahead<1024>(incoming);
     for (const Tiles::Incoming* end = incoming + bonds; incoming != end; ++incoming) {
       const Columns& T_a = T[incoming->from];
       const Vec3& B_ab = B_tile[incoming->slot];
@@ -251,10 +168,16 @@ TESSERA_KERNEL void force_sweep(const System& s, Index k, const Columns* T, cons
 }
 
 void collect_rims(const Tiles& tiles, const Double4* rim_f, Double4* f, Index begin, Index end) {
+  const Index* place = tiles.rim_place.data();
+  const Offset last = tiles.rim_offset[static_cast<std::size_t>(end)] - 1;
   for (Index a = begin; a < end; ++a) {
     const auto k = static_cast<std::size_t>(a);
-    for (Offset i = tiles.rim_offset[k]; i < tiles.rim_offset[k + 1]; ++i)
-      f[a] += rim_f[tiles.rim_place[static_cast<std::size_t>(i)]];
+    Double4 force = f[a];
+    for (Offset i = tiles.rim_offset[k]; i < tiles.rim_offset[k + 1]; ++i) {
+      fetch(rim_f + place[std::min(i + 2 * lookahead, last)]);
+      force += rim_f[place[i]];
+    }
+    f[a] = force;
   }
 }
 

@@ -74,6 +74,11 @@ void strain_sweep(const System& s, Index tile, const Double4* x, Tensor* F, Tile
 /// stress T_a = Q_a = (1/2V_a) sum_b dU_ab/dy_ab (x) X_ab, [D 58], of the tile's own particles.
 double contact_sweep(const System& s, Index tile, const Double4* x, const Tensor* F, Double4* f, TileScratch& scratch);
 
+/// The same on one bond of each of four particles at once, whatever the processor. Its forces and stresses have the
+/// same bits; the energy is added up in another order.
+double contact_sweep_of_four(const System& s, Index tile, const Double4* x, const Tensor* F, Double4* f,
+                             TileScratch& scratch);
+
 /// Sweep 2, second half: the elastic and viscous stress P(F_a) of the tile's own particles, added to T or, where the
 /// scratch has room for P, put there. `dt` is the time since the last evaluation (viscosity), zero at the first one;
 /// `viscous` is null without viscosity.

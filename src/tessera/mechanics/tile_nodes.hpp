@@ -6,10 +6,12 @@
 
 // What the kernels of the sweeps share: values of a tile and its rim by local numbers, four particles at a time.
 
-// One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can.
+// One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can. What needs
+// registers of 512 bits is a function of its own, for processors that have them.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__OPTIMIZE_SIZE__) && defined(__OPTIMIZE__)
 #define TESSERA_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), flatten))
+#define TESSERA_WIDE_KERNEL __attribute__((target("arch=x86-64-v4"), flatten))
 #else
 #define TESSERA_KERNEL
 #endif
@@ -18,6 +20,14 @@ namespace tessera {
 
 constexpr Index quad = 4;
 
+#ifdef TESSERA_WIDE_KERNEL
+/// The processor runs wide kernels.
+inline bool has_wide_registers() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+}
+#endif
+
 // How far ahead values of the rim are fetched: their addresses jump, so the processor cannot foresee them.
 constexpr Index lookahead = 8;
 template <class T>
@@ -25,6 +35,17 @@ inline void fetch(const T* value) {
   const char* first = reinterpret_cast<const char*>(value);
   __builtin_prefetch(first);
   if constexpr (sizeof(T) > 64) __builtin_prefetch(first + sizeof(T) - 1);
+}
+
+/// Fetches what follows in an array that is streamed: the processor's own prefetcher stops at pages, and gives way to
+/// what waits for other data.
+template <Offset bytes, class T>
+inline void fetch_ahead(const T* now) {
+  __builtin_prefetch(reinterpret_cast<const char*>(now) + bytes);
+}
+template <Offset bytes, class T>
+inline void fetch_to_write(const T* now) {
+  __builtin_prefetch(reinterpret_cast<const char*>(now) + bytes, 1);
 }
 
 inline const Tile& tile_of(const System& s, Index tile) { return s.tiles.tiles[static_cast<std::size_t>(tile)]; }
@@ -36,25 +57,6 @@ inline void store(Tensor& to, const Columns& t) {
   __builtin_memcpy(to.m + 6, &t.c2, 3 * sizeof(double));
 }
 
-/// Nodes of four particles.
-struct FourNodes {
-  Lanes3 F0, F1, F2;  // the columns of F/2
-  Lanes3 x, X;
-};
-
-inline FourNodes load_nodes(const TileNode* nodes, const std::uint16_t* local) {
-  const double *n0 = nodes[local[0]].value, *n1 = nodes[local[1]].value, *n2 = nodes[local[2]].value,
-               *n3 = nodes[local[3]].value;
-  const auto pairs = [&](Index k) { return load_pairs(n0 + k, n1 + k, n2 + k, n3 + k); };
-  const TwoLanes p0 = pairs(0), p2 = pairs(2), p4 = pairs(4), p6 = pairs(6), p8 = pairs(8), p10 = pairs(10),
-                 p12 = pairs(12), p14 = pairs(14);
-  return {{p0.first, p0.second, p2.first},
-          {p2.second, p4.first, p4.second},
-          {p6.first, p6.second, p8.first},
-          {p8.second, p10.first, p10.second},
-          {p12.first, p12.second, p14.first}};
-}
-
 /// Copies what sweeps need of the tile and its rim.
 inline void fill_nodes(const System& s, Index k, const Double4* x, const Tensor* F, TileNode* __restrict nodes) {
   const Tile& tile = tile_of(s, k);
@@ -64,7 +66,12 @@ inline void fill_nodes(const System& s, Index k, const Double4* x, const Tensor*
     for (int i = 0; i < 3; ++i) node.value[9 + i] = x[b][i];
     node.value[12] = X[b].x, node.value[13] = X[b].y, node.value[14] = X[b].z;
   };
-  for (Index b = tile.begin; b < tile.end; ++b) fill(nodes[b - tile.begin], b);
+  for (Index b = tile.begin; b < tile.end; ++b) {
+    fetch_ahead<1152>(F + b);
+    fetch_ahead<1024>(x + b);
+    fetch_ahead<1024>(X + b);
+    fill(nodes[b - tile.begin], b);
+  }
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const Index* rim = s.tiles.rim.data() + tile.rim;
   for (Index i = 0; i < rim_size; ++i) {

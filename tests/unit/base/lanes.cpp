@@ -63,5 +63,19 @@ TEST(Lanes, LoadPairsFromFourRows) {
   }
 }
 
+TEST(Lanes, LoadFoursFromEightRows) {
+  double rows[8][5];
+  for (int r = 0; r < 8; ++r)
+    for (int i = 0; i < 5; ++i) rows[r][i] = 10 * r + i;
+  const double* const row[8] = {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7]};
+  const FourOfEight fours = load_fours(row, 1);
+  for (int r = 0; r < 8; ++r) {
+    EXPECT_EQ(fours.n0[r], 10 * r + 1);
+    EXPECT_EQ(fours.n1[r], 10 * r + 2);
+    EXPECT_EQ(fours.n2[r], 10 * r + 3);
+    EXPECT_EQ(fours.n3[r], 10 * r + 4);
+  }
+}
+
 }  // namespace
 }  // namespace tessera

@@ -112,6 +112,31 @@ INSTANTIATE_TEST_SUITE_P(All, TileSizes,
                                          Kind{Method::variational, Integration::cell}),
                          [](const auto& method) { return name_of(method.param); });
 
+/// Eight particles at once, where the processor can do that, have the same forces and stresses as four, for quads of
+/// unequal lengths, a quad that is alone and one with padding.
+TEST(ContactSweep, GivesTheSameBitsOnFourAndOnEightParticles) {
+  for (const Index size : {64, 57, 11, 4, 1}) {
+    const Discretization d = discretize(Method::consistent, box({1, 1, 1}), {4, 4, 4}, 0.25, 3, nothing);
+    const System s = system_of(d, rubber(), size);
+    State state = reference_state(s);
+    move(state, s, wavy);
+    Field<Tensor> F(d.X.size());
+    Field<Double4> f(d.X.size()), f_of_four(d.X.size());
+    TileScratch scratch(s), of_four(s);
+    for (Index k = 0; k < s.tiles.size(); ++k) strain_sweep(s, k, state.x.data(), F.data(), scratch);
+    double energy = 0.0;
+    for (Index k = 0; k < s.tiles.size(); ++k) {
+      const double by_four = contact_sweep_of_four(s, k, state.x.data(), F.data(), f_of_four.data(), of_four);
+      EXPECT_NEAR(contact_sweep(s, k, state.x.data(), F.data(), f.data(), scratch), by_four, 1e-14 * by_four);
+      energy += by_four;
+      for (std::size_t a = 0; a < static_cast<std::size_t>(s.tiles.tiles[static_cast<std::size_t>(k)].size()); ++a)
+        EXPECT_EQ(to_mat3(scratch.T[a]), to_mat3(of_four.T[a]));
+    }
+    EXPECT_GT(energy, 0.0);
+    for (std::size_t a = 0; a < f.size(); ++a) EXPECT_EQ(to_vec3(f[a]), to_vec3(f_of_four[a]));
+  }
+}
+
 /// A deformation that has lost all meaning is noticed wherever it is.
 TEST(StressSums, NoticeWhatIsNotFiniteAndWhatIsInverted) {
   const System s = system_of(discretize(Method::consistent, box({1, 1, 1}), {4, 4, 4}, 0.1, 3, nothing), rubber());
