@@ -194,10 +194,11 @@ Identities worst_of(const Identities& a, const Identities& b) {
 void require(const Identities& identities) {
   for (const auto& [name, value] : identities)
     if (!(value <= tolerance))
-      throw GeometryError(
-          fmt::format("the identity \"{}\" of the discretization is violated by {:.1e} (allowed {:.0e}); the cells "
-                      "are damaged: move or remove particles that nearly coincide",
-                      name, value, tolerance));
+      throw GeometryError(fmt::format(
+          "the identity \"{}\" of the discretization is violated by {:.1e} (allowed {:.0e}); the cells "
+          "are damaged: move or remove particles that nearly coincide, and shift a body that is a hundred thousand "
+          "spacings or more away from the origin nearer to it",
+          name, value, tolerance));
 }
 
 }  // namespace tessera

@@ -22,7 +22,7 @@ void refuse_empty(const FileSurface& file) {
 void refuse_flatness(const FileSurface& file, const SurfaceRepairs& repairs) {
   if (file.surface.triangles.empty())
     throw GeometryError(fmt::format(
-        "{}: holds no triangle that has an area: {} are thinner than {:.3g}, which single precision leaves "
+        "{}: holds no triangle that has an area: {} are no thicker than {:.3g}, which single precision leaves "
         "undecided at the largest coordinate, all others lie on each other; a surface that bounds a solid is "
         "expected",
         file.path, repairs.flat_triangles, repairs.tolerance));

@@ -250,7 +250,7 @@ TEST(SurfaceReader, FaultsSayWhatIsOdd) {
   expect_contains(message_of<GeometryError>([] { read_whole_file(data_path("")); }), "it is a folder");
   expect_contains(message_of<GeometryError>([] { check_surface(read_off("f", "OFF\n0 0 0\n")); }), "no triangle");
   const auto flat = [] { check_surface(read_obj("f", "v 0 0 0\nv 1 0 0\nv 3e38 0 0\nf 1 2 3\n")); };
-  expect_contains(message_of<GeometryError>(flat), "1 are thinner than 7");
+  expect_contains(message_of<GeometryError>(flat), "1 are no thicker than 7");
 }
 
 TEST(SurfaceReader, PassesOverMarksAndLineEndsOfOtherSystems) {
