@@ -40,9 +40,9 @@ struct NewCommand {
 
 /// tessera bench
 struct BenchCommand {
-  int particles = 0;  // 0: all sizes
-  int threads = 0;    // 0: one to all
-  std::string integration = "nodal";
+  int particles = 0;        // 0: all sizes
+  int threads = 0;          // 0: one to all
+  std::string integration;  // empty: nodal for the speed, all for the accuracy
   std::string formulation;  // empty: voronoi for the speed, both for the accuracy
   bool accuracy = false;    // only that
   bool json = false;
