@@ -183,16 +183,13 @@ plot {", ".join(plots)}""", size=(900, 460))
         return self.store.modes(name, modes.BEAM, settings, modes.ENOUGH[condition])
 
     def modes(self):
-        """Errors of the frequencies at 4 and 8 per metre."""
-        return "\n".join(f"At {n} per metre:\n\n{self.modes_at(n)}" for n in self.densities(4, 8))
-
-    def modes_at(self, per_metre):
+        """Errors of the frequencies at 4 per metre."""
         head = ["", "free: bending", "torsion", "second bending", "clamped: bending", "torsion", "second bending",
                 "stable step"]
         rows = []
         for method in self.methods:
             for jitter in JITTERS:
-                found = {c: self.beam_modes(method, per_metre, jitter, c) for c in ("free", "fixed")}
+                found = {c: self.beam_modes(method, 4, jitter, c) for c in ("free", "fixed")}
                 errors = [e for c in found for e in modes.errors(found[c], c).values()]
                 rows.append([f"{cases.name_of(method)}, {kind(jitter)}", *map(signed, errors),
                              f"{modes.relative_step(found['free']):.2f}"])
