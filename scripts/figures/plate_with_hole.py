@@ -27,11 +27,9 @@ def main():
         blocks[name] = sorted((y / case.RADIUS, s) for _, y, s in rows)
         curves.append(f"${name} with points pointtype 7 pointsize {1.3 - 0.3 * i} linecolor {i + 1} "
                       f"title 'a / {case.RADIUS / spacing:.3g}'")
-        for integration in ("cell", "second-order"):
-            r = case.result("kirsch", spacing, integration)
-            rows = case.ligament(r, spacing)
-            print(f"kirsch {integration} {spacing:g} m: {r.summary['particles']} particles, error {100 * case.error(r):.3g}%, "
-                  f"ligament {case.stress_error(rows):.3g}, concentration {case.concentration(rows):.3f}", flush=True)
+        r = case.result("kirsch", spacing)
+        print(f"kirsch {spacing:g} m: {r.summary['particles']} particles, error {100 * case.error(r):.3g}%, "
+              f"ligament {case.stress_error(rows):.3g}, concentration {case.concentration(rows):.3f}", flush=True)
     for spacing in (0.02, 0.01):
         print(f"strip {spacing:g} m: {case.concentration(case.ligament(case.result('strip', spacing), spacing)):.3f}", flush=True)
     gnuplot.plot(runs.EXAMPLES / "plate-with-hole/ligament.png", blocks, f"""set xlabel 'distance from the centre of the hole / a'

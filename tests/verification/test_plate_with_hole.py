@@ -24,10 +24,10 @@ def heywood(hole_over_width):
 
 
 @functools.cache
-def result(case, spacing, integration="cell"):
+def result(case, spacing):
     """None where this build cannot make the body."""
     process, folder = runs.execute("plate-with-hole/plate.toml", FIELDS | (STRIP if case == "strip" else {}) | {
-        "body.0.particles.spacing": spacing, "method.integration": integration})
+        "body.0.particles.spacing": spacing})
     if "TESSERA_WITH_CGAL" in process.stderr:
         return None
     if process.returncode != 0:
