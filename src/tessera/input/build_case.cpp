@@ -35,11 +35,6 @@ MethodSpec build_method(const Reader& t) {
   if (tetrahedra == "delaunay") method.tetrahedra = Tetrahedralization::delaunay;
   if (tetrahedra == "split") method.tetrahedra = Tetrahedralization::split;
   if (t.text("volumetric") == "averaged") method.volumetric = Volumetric::averaged;
-  if (method.volumetric == Volumetric::averaged && method.integration != Integration::nodal)
-    throw InputError(
-        t.origin_of("volumetric"),
-        "method.volumetric = \"averaged\" needs method.integration = \"nodal\"; at several points of a cell "
-        "only \"standard\" is possible");
   method.dimension = static_cast<int>(t.integer("dimension"));
   return method;
 }

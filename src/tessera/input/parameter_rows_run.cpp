@@ -33,8 +33,9 @@ Rows method_rows() {
        .presence = defaulted,
        .choices = {"standard", "averaged"},
        .standard = "\"standard\"",
-       .sentence = "The change of volume that the law sees: each particle's own, or, for nearly incompressible solids, "
-                   "the mean over it and its neighbours (with integration = \"nodal\" only)."},
+       .sentence =
+           "The change of volume that the law sees: each stress point's own, or, for nearly incompressible solids, "
+           "one a particle, the mean over it and its neighbours."},
       {.key = "method.integration",
        .kind = choice,
        .presence = defaulted,

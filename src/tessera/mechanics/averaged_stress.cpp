@@ -17,17 +17,6 @@ AveragedStress::AveragedStress(const System& s)
       scale_(s.d.X.size()),
       P_(s.d.X.size()) {}
 
-void AveragedStress::take_mean(const std::vector<double>& values) {
-  const auto pass = [&](const std::vector<double>& from, std::vector<double>& to) {
-    parallel::for_each(s_.particles(), [&](std::int64_t i) {
-      const auto a = static_cast<std::size_t>(i);
-      to[a] = s_.average->mean(a, from.data());
-    });
-  };
-  pass(values, once_);
-  pass(once_, mean_);
-}
-
 StressSums AveragedStress::evaluate(const Tensor* F, const HistorySpan& history) {
   volume_changes(F);
   StressSums sums;
@@ -46,7 +35,7 @@ void AveragedStress::volume_changes(const Tensor* F) {
     const auto a = static_cast<std::size_t>(i);
     J_[a] = determinant(to_mat3(F[a]));
   });
-  take_mean(J_);
+  s_.average->mean_twice(J_, once_, mean_);
 }
 
 /// P without the mean of p, to which the neighbours belong.
@@ -80,7 +69,7 @@ StressSums AveragedStress::respond(const Law& law, Index begin, Index end, const
 
 /// P_a += (mean of p) J_a F_a^-T: from every Jbar that J_a is a part of.
 void AveragedStress::add_pressures(const Tensor* F) {
-  take_mean(p_);
+  s_.average->mean_twice(p_, once_, mean_);
   parallel::for_each(s_.particles(), [&](std::int64_t i) {
     const auto a = static_cast<std::size_t>(i);
     P_[a] = to_tensor(to_mat3(P_[a]) + mean_[a] * cofactor(to_mat3(F[a])));

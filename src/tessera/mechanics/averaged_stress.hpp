@@ -28,8 +28,6 @@ class AveragedStress {
   template <class Law>
   StressSums respond(const Law& law, Index begin, Index end, const Tensor* F, const HistorySpan& history);
   void volume_changes(const Tensor* F);
-  /// The mean, taken twice: once leaves half of what alternates from layer to layer.
-  void take_mean(const std::vector<double>& values);
   void add_pressures(const Tensor* F);
 
   const System& s_;

@@ -26,6 +26,12 @@ void for_each_owner(const System& s, Index tile, Body&& body) {
     body(k, s.owners[static_cast<std::size_t>(k)]);
 }
 
+void find_all_point_strains(const System& s, const Tensor* F, SecondOrderMemory& memory) {
+  parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
+    find_point_strains(*s.second_order, static_cast<Index>(begin), static_cast<Index>(end), F, memory);
+  });
+}
+
 }  // namespace
 
 Forces::Forces(const System& system, Flow flow)
@@ -47,9 +53,14 @@ Forces::Forces(const System& system, Flow flow)
   rim_f_.resize(system.tiles.rim.size());
   if (system.d.direct) rim_f_direct_.resize(system.tiles.rim.size());
   if (split_) owners_P_.resize(system.owners.size());
-  if (system.average) averaged_.emplace(system);
+  if (system.average && system.second_order)
+    averaged_points_.emplace(system);
+  else if (system.average && system.gradients)
+    averaged_cells_.emplace(system);
+  else if (system.average)
+    averaged_.emplace(system);
   if (system.plastic()) history_after_.resize(particles * static_cast<std::size_t>(system.stress_points));
-  if (system.gradients) {
+  if (cells_by_tile()) {
     cells_.T.resize(particles);
     if (split_) cells_.P.resize(particles);
     cells_.rim_energies.resize(system.tiles.rim.size());
@@ -66,20 +77,19 @@ void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
     return parallel::sum_tasks<StressSums>(system_.tiles.size(),
                                            [&](std::int64_t tile) { return body(static_cast<Index>(tile)); });
   };
+  const StressSums averaged = averaged_stresses(state);
   if (system_.second_order) {
     sums_ = over_tiles([&](Index tile) { return curved_stresses(tile, state, dt); });
     return_gradients(*system_.second_order, system_.d.volume.data(), curved_);
     sums_ += over_tiles([&](Index tile) { return curved_forces(tile, state); });
     add_hessian_forces(*system_.second_order, curved_, f_.data());
-  } else if (system_.gradients) {
+  } else if (cells_by_tile()) {
     sums_ = over_tiles([&](Index tile) { return cell_stresses(tile, state, dt); });
     sums_ += over_tiles([&](Index tile) { return cell_forces(tile, state); });
   } else {
-    StressSums averaged;
-    if (averaged_) averaged = averaged_->evaluate(F_.data(), {state.plastic.data(), history_after_.data(), flow_});
     sums_ = over_tiles([&](Index tile) { return tile_forces(tile, state, dt); });
-    sums_ += averaged;
   }
+  sums_ += averaged;
   drain();
   finish(state, action);
 }
@@ -99,6 +109,16 @@ void Forces::strain(State& state, const ExternalAction& action) {
   });
   add_boundary_strain(s, state.x.data(), F_.data());
   if (s.second_order) add_curvature_strain(*s.second_order, s.d.volume.data(), curved_, F_.data());
+}
+
+/// Where laws see a mean change of volume: the elastic stresses of all particles, known before the tiles' turn.
+StressSums Forces::averaged_stresses(const State& state) {
+  const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
+  if (averaged_) return averaged_->evaluate(F_.data(), history);
+  if (averaged_cells_) return averaged_cells_->evaluate(F_.data(), history, {});
+  if (!averaged_points_) return {};
+  find_all_point_strains(system_, F_.data(), curved_);
+  return averaged_points_->evaluate(F_.data(), curved_.points.data(), history, {});
 }
 
 /// Stresses of one tile's own particles and what they do to each other, to the rim and to boundary nodes.
@@ -146,11 +166,16 @@ StressSums Forces::curved_stresses(Index tile, const State& state, double dt) {
   const Tile& t = tile_of(s, tile);
   const Lease scratch(scratch_);
   const double contact = contact_sweep(s, tile, state.x.data(), F_.data(), f_.data(), *scratch);
-  find_point_strains(*s.second_order, t.begin, t.end, F_.data(), curved_);
-  const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
-  StressSums sums =
-      varied_stress_sweep(s, tile, F_.data(), curved_.points.data(), history, s.viscosity.empty() ? nullptr : &viscous_,
-                          dt, *scratch, curved_.points.data(), {});
+  ViscousMemory* viscous = s.viscosity.empty() ? nullptr : &viscous_;
+  StressSums sums;
+  if (averaged_points_) {
+    sums = known_stress_sweep(s, tile, F_.data(), averaged_points_->P(), viscous, dt, *scratch);
+  } else {
+    find_point_strains(*s.second_order, t.begin, t.end, F_.data(), curved_);
+    const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
+    sums = varied_stress_sweep(s, tile, F_.data(), curved_.points.data(), history, viscous, dt, *scratch,
+                               curved_.points.data(), {});
+  }
   sums.contact = contact;
   take_moments(*s.second_order, t.begin, t.end, curved_);
   for (Index a = t.begin; a < t.end; ++a)
@@ -177,14 +202,24 @@ StressSums Forces::curved_forces(Index tile, const State& state) {
 void Forces::report_curved(const State& state, const CellReport& report, SecondOrderMemory& memory) const {
   const System& s = system_;
   find_hessians(*s.second_order, state.x.data(), memory);
+  const HistorySpan history{state.plastic.data(), nullptr, flow_};
+  std::optional<AveragedCubature> averaged;
+  if (averaged_points_) {
+    find_all_point_strains(s, F_.data(), memory);
+    averaged.emplace(s).evaluate(F_.data(), memory.points.data(), history, report);
+  }
   parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
     const auto tile = static_cast<Index>(task);
     const Tile& t = tile_of(s, tile);
     const Lease scratch(scratch_);
-    find_point_strains(*s.second_order, t.begin, t.end, F_.data(), memory);
     std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
-    varied_stress_sweep(s, tile, F_.data(), memory.points.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0,
-                        *scratch, memory.points.data(), report);
+    if (averaged) {
+      known_stress_sweep(s, tile, F_.data(), averaged->P(), nullptr, 0.0, *scratch);
+    } else {
+      find_point_strains(*s.second_order, t.begin, t.end, F_.data(), memory);
+      varied_stress_sweep(s, tile, F_.data(), memory.points.data(), history, nullptr, 0.0, *scratch,
+                          memory.points.data(), report);
+    }
     take_moments(*s.second_order, t.begin, t.end, memory);
     for (Index a = t.begin; a < t.end; ++a)
       memory.T[static_cast<std::size_t>(a)] = to_tensor(scratch->T[static_cast<std::size_t>(a - t.begin)]);
@@ -205,6 +240,7 @@ void Forces::recall(Index tile, const CellMemory& cells, TileScratch& scratch) c
 StressSums Forces::elastic_stress(Index tile, const HistorySpan& history, ViscousMemory* viscous, double dt,
                                   TileScratch& scratch) const {
   if (averaged_) return known_stress_sweep(system_, tile, F_.data(), averaged_->P(), viscous, dt, scratch);
+  if (averaged_cells_) return known_stress_sweep(system_, tile, F_.data(), averaged_cells_->T(), viscous, dt, scratch);
   return stress_sweep(system_, tile, F_.data(), history, viscous, dt, scratch);
 }
 
@@ -263,6 +299,10 @@ std::vector<double> Forces::smallest_J(const State& state) const {
     report_curved(state, {nullptr, J.data()}, memory);
     return J;
   }
+  if (averaged_cells_) {
+    AveragedCells(s).evaluate(F_.data(), {state.plastic.data(), nullptr, flow_}, {nullptr, J.data(), nullptr});
+    return J;
+  }
   if (!s.gradients) {
     for (std::size_t a = 0; a < J.size(); ++a) J[a] = determinant(to_mat3(F_[a]));
     return J;
@@ -288,11 +328,17 @@ Forces::Internal Forces::internal(const State& state) const {
   const Vec3* B_aa = s.d.direct ? s.d.direct->B_aa.data() : s.d.B_aa.data();
   CellMemory cells;
   SecondOrderMemory curved(s.second_order ? particles : 0);
-  if (s.second_order) report_curved(state, {result.P.data(), nullptr}, curved);
-  if (s.gradients) {
+  if (s.gradients || s.second_order) result.energy.resize(particles);
+  if (s.second_order) report_curved(state, {result.P.data(), nullptr, result.energy.data()}, curved);
+  if (averaged_cells_) {
+    AveragedCells averaged(s);
+    averaged.evaluate(F_.data(), {state.plastic.data(), nullptr, flow_},
+                      {result.P.data(), nullptr, result.energy.data()});
+    cells.T.assign(averaged.T(), averaged.T() + particles);
+  }
+  if (cells_by_tile()) {
     cells.T.resize(particles);
     cells.rim_energies.resize(s.tiles.rim.size());
-    result.energy.resize(particles);
     parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
       const auto tile = static_cast<Index>(task);
       const Tile& t = tile_of(s, tile);
@@ -315,7 +361,7 @@ Forces::Internal Forces::internal(const State& state) const {
       for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(curved.T[static_cast<std::size_t>(a)]);
     } else if (s.gradients) {
       for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(cells.T[static_cast<std::size_t>(a)]);
-      collect_rim_stresses(s, tile, cells.rim_energies.data(), P);
+      if (cells_by_tile()) collect_rim_stresses(s, tile, cells.rim_energies.data(), P);
     } else {
       elastic_stress(tile, {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch);
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/loads/tractions.hpp"
+#include "tessera/mechanics/averaged_cubature.hpp"
 #include "tessera/mechanics/averaged_stress.hpp"
 #include "tessera/mechanics/cell_sweeps.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
@@ -46,7 +47,10 @@ class Forces {
   const Field<Tensor>& deformation_gradient() const { return F_; }
   /// The deformation that the law sees at particle a: F_a, or with the mean change of volume around it.
   Mat3 law_deformation(std::size_t a) const {
-    return averaged_ ? averaged_->law_deformation(a, F_[a]) : to_mat3(F_[a]);
+    if (averaged_) return averaged_->law_deformation(a, F_[a]);
+    if (averaged_cells_) return averaged_cells_->law_deformation(a, F_[a]);
+    if (averaged_points_) return averaged_points_->law_deformation(a, F_[a]);
+    return to_mat3(F_[a]);
   }
   const std::vector<Vec3>& reactions() const { return reactions_; }  // force on what prescribes each node [N]
   const StressSums& sums() const { return sums_; }                   // of the last evaluation
@@ -71,6 +75,7 @@ class Forces {
 
  private:
   void strain(State& state, const ExternalAction& action);
+  StressSums averaged_stresses(const State& state);
   StressSums tile_forces(Index tile, const State& state, double dt);
   StressSums cell_stresses(Index tile, const State& state, double dt);
   StressSums cell_forces(Index tile, const State& state);
@@ -86,6 +91,8 @@ class Forces {
   void finish(const State& state, const ExternalAction& action);
   /// Boundary nodes or rows treat the elastic stress and the contact stress differently ([V 42, 43]).
   bool split() const { return split_; }
+  /// Cells are integrated tile by tile, so that their stresses are complete when all tiles have theirs.
+  bool cells_by_tile() const { return system_.gradients && !system_.average; }
 
   const System& system_;
   bool split_;
@@ -99,7 +106,10 @@ class Forces {
   Flow flow_;
   Field<PlasticState> history_after_;
   CellMemory cells_;
+  // Where laws see a mean change of volume, one of them: nodal, cell and second-order integration.
   std::optional<AveragedStress> averaged_;
+  std::optional<AveragedCells> averaged_cells_;
+  std::optional<AveragedCubature> averaged_points_;
   SecondOrderMemory curved_;  // empty but for second-order integration
   StressSums sums_;
 };

@@ -13,6 +13,18 @@ constexpr int scalings = 20;
 
 }  // namespace
 
+void VolumeAverage::mean_twice(const std::vector<double>& values, std::vector<double>& once,
+                               std::vector<double>& mean_of_means) const {
+  const auto pass = [&](const std::vector<double>& from, std::vector<double>& to) {
+    parallel::for_each(static_cast<std::int64_t>(from.size()), [&](std::int64_t i) {
+      const auto a = static_cast<std::size_t>(i);
+      to[a] = mean(a, from.data());
+    });
+  };
+  pass(values, once);
+  pass(once, mean_of_means);
+}
+
 VolumeAverage volume_average(const Discretization& d) {
   VolumeAverage average;
   average.offset = d.bonds.offset;

@@ -30,6 +30,10 @@ struct VolumeAverage {
       sum += weight[i] * (value[neighbour[i]] - value[a]);
     return sum;
   }
+
+  /// The mean, taken twice: once leaves half of what alternates from layer to layer. `once` holds the first one.
+  void mean_twice(const std::vector<double>& values, std::vector<double>& once,
+                  std::vector<double>& mean_of_means) const;
 };
 
 /// The weights of a discretization that still has its bonds.

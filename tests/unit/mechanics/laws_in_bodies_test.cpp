@@ -10,6 +10,7 @@ struct Variant {
   Constrain constrain;
   std::size_t material;
   Volumetric volumetric = Volumetric::standard;
+  Integration integration = Integration::nodal;
 };
 
 class LawsInBodies : public testing::TestWithParam<Variant> {
@@ -30,8 +31,9 @@ class LawsInBodies : public testing::TestWithParam<Variant> {
     return trial.sums().internal + trial.sums().contact + trial.sums().dissipated;
   }
 
-  const System s = system_of(discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain),
-                             other_materials()[GetParam().material], small_tiles, GetParam().volumetric);
+  const System s = system_of(
+      discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
+      other_materials()[GetParam().material], small_tiles, GetParam().volumetric);
   std::vector<Vec3> walls;
   State state = reference_state(s);
   Forces forces{s};
@@ -97,6 +99,9 @@ std::vector<Variant> variants(std::size_t first) {
     all.push_back({Method::variational, nothing, m});
     all.push_back({Method::delaunay, nothing, m, Volumetric::averaged});
     all.push_back({Method::consistent, mixed, m, Volumetric::averaged});
+    all.push_back({Method::delaunay, mixed, m, Volumetric::averaged, Integration::cell});
+    all.push_back({Method::consistent, mixed, m, Volumetric::averaged, Integration::cell});
+    all.push_back({Method::consistent, mixed, m, Volumetric::averaged, Integration::second_order});
   }
   return all;
 }
@@ -104,7 +109,9 @@ std::vector<Variant> variants(std::size_t first) {
 std::string name_of_variant(const testing::TestParamInfo<Variant>& variant) {
   const std::vector<std::string> names{"svk", "mooney", "ogden", "j2"};
   const std::string averaged = variant.param.volumetric == Volumetric::averaged ? "_averaged" : "";
-  return name_of(variant.param.method) + "_" + names[variant.param.material] + averaged;
+  const std::string where =
+      variant.param.integration == Integration::nodal ? "" : "_" + name_of(variant.param.integration);
+  return name_of(variant.param.method) + "_" + names[variant.param.material] + averaged + where;
 }
 
 INSTANTIATE_TEST_SUITE_P(AllLaws, LawsInBodies, testing::ValuesIn(variants(0)), name_of_variant);

@@ -6,12 +6,14 @@ namespace {
 struct Variant {
   Method method;
   Volumetric volumetric;
+  Integration integration = Integration::nodal;
 };
 
 /// A cube that is clamped below and pulled to and fro above, far beyond its yield stress.
 Case pulled(const Variant& v) {
   Case c = cube_case(v.method, {3, 3, 3}, 0.2);
   c.method.volumetric = v.volumetric;
+  c.method.integration = v.integration;
   c.materials[0].law = J2Plasticity::from_young_poisson(1e6, 0.3, 1e4, 5e4);
   c.boundary = {condition({"-z"}, Condition::fixed),
                 condition({"+z"}, PrescribedDisplacement{{formula("0"), std::nullopt, formula("0.1*sin(20*t)^3")}})};
@@ -70,7 +72,8 @@ TEST_P(PlasticLedger, Closes) {
 }
 
 std::string name_of_variant(const testing::TestParamInfo<Variant>& variant) {
-  return name_of(variant.param.method) + (variant.param.volumetric == Volumetric::averaged ? "_averaged" : "");
+  return name_of(variant.param.method) + (variant.param.volumetric == Volumetric::averaged ? "_averaged" : "") +
+         (variant.param.integration == Integration::second_order ? "_second_order" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PlasticRuns,
@@ -78,12 +81,14 @@ INSTANTIATE_TEST_SUITE_P(All, PlasticRuns,
                                          Variant{Method::consistent, Volumetric::standard},
                                          Variant{Method::variational, Volumetric::standard},
                                          Variant{Method::quasi_static, Volumetric::standard},
-                                         Variant{Method::consistent, Volumetric::averaged}),
+                                         Variant{Method::consistent, Volumetric::averaged},
+                                         Variant{Method::consistent, Volumetric::averaged, Integration::second_order}),
                          name_of_variant);
 INSTANTIATE_TEST_SUITE_P(All, PlasticLedger,
                          testing::Values(Variant{Method::delaunay, Volumetric::standard},
                                          Variant{Method::consistent, Volumetric::standard},
-                                         Variant{Method::consistent, Volumetric::averaged}),
+                                         Variant{Method::consistent, Volumetric::averaged},
+                                         Variant{Method::consistent, Volumetric::averaged, Integration::second_order}),
                          name_of_variant);
 
 }  // namespace
