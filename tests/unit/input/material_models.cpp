@@ -72,12 +72,12 @@ TEST(MaterialModels, RefuseWhatTheyCannotUse) {
 }
 
 TEST(Volumetric, IsReadForAllIntegrations) {
-  const auto with = [](const std::string& keys) { return sample::with("[method]\n", "[method]\n" + keys); };
-  EXPECT_EQ(sample::read(with("")).method.volumetric, Volumetric::standard);
+  const auto with = [](const std::string& integration) {
+    return sample::read(sample::text, {"method.boundary=consistent", "method.volumetric=averaged", integration}).method;
+  };
+  EXPECT_EQ(sample::read(sample::text).method.volumetric, Volumetric::standard);
   for (const std::string integration : {"nodal", "cell", "second-order"})
-    EXPECT_EQ(
-        sample::read(with("integration = \"" + integration + "\"\nvolumetric = \"averaged\"\n")).method.volumetric,
-        Volumetric::averaged);
+    EXPECT_EQ(with("method.integration=" + integration).volumetric, Volumetric::averaged);
 }
 
 }  // namespace

@@ -9,6 +9,11 @@ struct Variant {
   Integration integration = Integration::nodal;
 };
 
+std::string name_of(const Variant& v) {
+  return name_of(v.method) + (v.volumetric == Volumetric::averaged ? "_averaged" : "") +
+         (v.integration == Integration::second_order ? "_second_order" : "");
+}
+
 /// A cube that is clamped below and pulled to and fro above, far beyond its yield stress.
 Case pulled(const Variant& v) {
   Case c = cube_case(v.method, {3, 3, 3}, 0.2);
@@ -37,7 +42,7 @@ TEST_P(PlasticRuns, ContinueBitwise) {
   Case c = pulled(GetParam());
   c.time.step = AutoSpectralStep{};
   c.time.safety = 0.2;
-  const std::string path = testing::TempDir() + "/plastic_" + name_of(GetParam().method) + ".h5";
+  const std::string path = testing::TempDir() + "/plastic_" + name_of(GetParam()) + ".h5";
   Running unbroken(c);
   unbroken.finish();
   EXPECT_GT(largest_strain(unbroken.engine), 0.05);
@@ -71,10 +76,7 @@ TEST_P(PlasticLedger, Closes) {
   EXPECT_LT(fine, coarse / 8.0);
 }
 
-std::string name_of_variant(const testing::TestParamInfo<Variant>& variant) {
-  return name_of(variant.param.method) + (variant.param.volumetric == Volumetric::averaged ? "_averaged" : "") +
-         (variant.param.integration == Integration::second_order ? "_second_order" : "");
-}
+std::string name_of_variant(const testing::TestParamInfo<Variant>& variant) { return name_of(variant.param); }
 
 INSTANTIATE_TEST_SUITE_P(All, PlasticRuns,
                          testing::Values(Variant{Method::delaunay, Volumetric::standard},
