@@ -138,9 +138,7 @@ def punch_in_space(counts, poisson):
     under, beside, height = counts
     towards = 1 - (1 - np.linspace(0, 1, under + 1)) ** 1.6
     side = np.concatenate([towards / 3, 1 / 3 + 2 / 3 * np.linspace(0, 1, beside + 1)[1:] ** 1.6])
-    z = np.interp(np.arange(height + 1), [0, height / 2, height], [0, 0.5, 1])
-    z = np.where(z > 0.5, 1 - 2**0.6 * (1 - z) ** 1.6, z)
-    grids = [side, side, z]
+    grids = [side, side, (1 - np.cos(np.pi * np.linspace(0, 1, height + 1))) / 2]
 
     def prescribed(P):
         pressed = (P[:, 2] > 1 - 1e-12) & (P[:, 0] < 1 / 3 + 1e-12) & (P[:, 1] < 1 / 3 + 1e-12)
