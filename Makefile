@@ -4,6 +4,7 @@
 #   make test                     set up, build, run all tests, then the same for the preset minimal
 #   make results                  write docs/results.md, the papers' numbers beside ours, from what the last `make test` measured
 #   make accuracy                 write the tables and plots of docs/accuracy.md; hours (ACCURACY_RUNS keeps the runs)
+#   make incompressible           print the errors of examples/nearly-incompressible; an hour or two
 #   make check                    warnings as errors, unit tests with assertions, lint
 #   make format                   clang-format in place
 #   make clean                    remove everything that was built, and the demo's result
@@ -11,7 +12,7 @@ PRESET ?= release
 JOBS ?= $(shell nproc)
 export JOBS
 
-.PHONY: build setup demo test results accuracy check format clean
+.PHONY: build setup demo test results accuracy incompressible check format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -35,6 +36,9 @@ results:
 ACCURACY_RUNS ?= build/accuracy
 accuracy:
 	/usr/bin/python3 scripts/accuracy/study.py $(ACCURACY_RUNS)
+
+incompressible:
+	TESSERA=build/release/bin/tessera /usr/bin/python3 scripts/incompressible.py
 
 check:
 	$(MAKE) --no-print-directory build PRESET=dev

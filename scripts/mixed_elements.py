@@ -157,4 +157,4 @@ if __name__ == "__main__":
         print(f"nu = {ratio}: membrane", *(f"{cook(n, ratio):.4e}" for n in (16, 32, 64)))
         print(f"nu = {ratio}: punch of [V]", *("{:.4e} {:.1f}".format(*punch(n, ratio)) for n in (4, 8, 16)))
         print(f"nu = {ratio}: punch of [D]",
-              *("{:.4e} {:.5f}".format(*punch_in_space(c, ratio)) for c in ((2, 3, 4), (3, 4, 4), (5, 5, 6))), flush=True)
+              *("{:.4e} {:.5f}".format(*punch_in_space(c, ratio)) for c in ((2, 3, 6), (3, 4, 6), (3, 4, 8))), flush=True)

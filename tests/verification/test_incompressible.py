@@ -1,33 +1,10 @@
-"""Nearly incompressible solids: Cook's membrane in plane strain with the mean change of volume and without, against mixed
-finite elements (scripts/mixed_elements.py), and how much the pressure alternates between neighbours."""
+"""Nearly incompressible solids: Cook's membrane in plane strain and the punch of [D] with the mean change of volume and without,
+against mixed finite elements, and how much the pressure alternates between neighbours."""
 
-import math
 import unittest
 
+import incompressible
 import runs
-
-COOK = "nearly-incompressible/cook.toml"
-RISE = {0.45: 31.33e-6, 0.499: 29.65e-6}  # of the middle of the right side [m], converged
-SPACING = 2e-3
-
-
-def roughness(frame):
-    """The rms of the pressure less the mean over the neighbours, relative to the rms of the pressure."""
-    places = list(zip(frame["reference_position_x"], frame["reference_position_y"]))
-    pressure, volume = frame["pressure"], frame["volume"]
-    rough = whole = 0.0
-    for a, (x, y) in enumerate(places):
-        near = [b for b, (u, v) in enumerate(places) if b != a and math.hypot(u - x, v - y) < 1.35 * SPACING]
-        mean = sum(volume[b] * pressure[b] for b in near) / sum(volume[b] for b in near)
-        rough += volume[a] * (pressure[a] - mean) ** 2
-        whole += volume[a] * pressure[a] ** 2
-    return math.sqrt(rough / whole)
-
-
-def membrane(poisson, volumetric):
-    return runs.run(COOK, {"material.0.poisson": poisson, "method.volumetric": volumetric, "output.fields.cells": False,
-                           "output.fields.format": "csv", "output.fields.every": "80 ms",
-                           "output.fields.quantities": ["pressure", "volume"]})
 
 
 class NearlyIncompressible(unittest.TestCase):
@@ -37,20 +14,31 @@ class NearlyIncompressible(unittest.TestCase):
     def tearDownClass(cls):
         runs.record("nearly-incompressible", cls.rows)
 
+    def check(self, what, averaged):
+        error = averaged.errors[0]
+        self.rows.append((f"{what}, averaged", "mixed finite elements", 0.0, error, "<= 0.03"))
+        self.assertLess(abs(error), 0.03)
+
     def test_neither_locks_nor_alternates(self):
-        for poisson, converged in RISE.items():
+        for poisson in (0.45, 0.499):
             with self.subTest(poisson=poisson):
-                averaged, standard = membrane(poisson, "averaged"), membrane(poisson, "standard")
-                error = (averaged.history["C.y"][-1] - 0.052) / converged - 1.0
-                rough = roughness(averaged.frame())
-                self.rows.append((f"Cook's membrane, nu = {poisson}: error of the rise, averaged", "mixed finite elements",
-                                  0.0, error, "<= 0.03"))
+                averaged, standard = (incompressible.membrane(poisson, "nodal", v) for v in ("averaged", "standard"))
+                self.check(f"Cook's membrane, nu = {poisson}: error of the rise", averaged)
                 self.rows.append((f"the same: roughness of the pressure, averaged over standard", "", None,
-                                  rough / roughness(standard.frame()), "<= 0.3"))
-                self.assertLess(abs(error), 0.03)
-                self.assertLess(rough, 0.2)
-                self.assertLess(rough, 0.3 * roughness(standard.frame()))
-                self.assertLess(averaged.summary["steps"], standard.summary["steps"])
+                                  averaged.roughness / standard.roughness, "<= 0.3"))
+                self.assertLess(averaged.roughness, 0.2)
+                self.assertLess(averaged.roughness, 0.3 * standard.roughness)
+                self.assertLess(averaged.steps, standard.steps)
+
+    def test_nor_with_several_points_a_cell(self):
+        averaged = incompressible.membrane(0.49, "cell", "averaged")
+        self.check("Cook's membrane, nu = 0.49, cell: error of the rise", averaged)
+        self.assertLess(averaged.roughness, 0.12)
+
+    def test_punch_in_space(self):
+        averaged = incompressible.punch_in_space(0.49, "nodal", "averaged")
+        self.check("punch of [D], nu = 0.49: error of the bulge", averaged)
+        self.assertLess(averaged.roughness, 0.16)
 
 
 if __name__ == "__main__":
