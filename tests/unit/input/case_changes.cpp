@@ -16,7 +16,7 @@ TEST(CaseChanges, NameTheKeyAndBothValues) {
       "title = \"A\"\n[time]\nend = 2\ndamping = 3\n[[material]]\nyoung = 2e6\n[[material]]\nyoung = 5\n";
   EXPECT_EQ(case_changes(before, "old", now),
             (Lines{"time.end was 1, is 2", "time.safety was 0.8, is missing", "time.damping was missing, is 3",
-                   "material.0.young was 1000000.0, is 2000000.0", "material.1 was missing, is { young = 5 }"}));
+                   "material.0.young was 1000000, is 2000000", "material.1 was missing, is { young = 5 }"}));
 }
 
 TEST(CaseChanges, CompareListsItemByItem) {

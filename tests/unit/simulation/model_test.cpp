@@ -56,6 +56,20 @@ TEST(SeveralBodies, MoveAsEachDoesAlone) {
   }
 }
 
+/// What only the mesher heeds is refused where particles come from a lattice.
+TEST(MesherWishes, AreRefusedWithoutMesher) {
+  for (Method method : {Method::delaunay, Method::consistent}) {
+    Case c = cube_case(method, {3, 3, 3}, 0.0);
+    c.bodies[0].particles.mesher.size = formula("0.1 + X");
+    try {
+      build_model(c);
+      FAIL() << name_of(method);
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("size without arrangement"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(SeveralBodies, MustNotOverlap) {
   for (Method method : {Method::delaunay, Method::consistent}) {
     Case c = cube_case(method);
