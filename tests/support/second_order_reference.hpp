@@ -5,7 +5,7 @@
 #include <array>
 
 #include "support/consistent_reference.hpp"
-#include "tessera/discretization/quadratic_fit.hpp"
+#include "tessera/discretization/second_derivatives.hpp"
 
 namespace tessera::test {
 
@@ -17,6 +17,7 @@ struct ReferencePoint {
 
 /// The second-order consistent formulation as a few large sparse matrices: positions of faces c = C x + C_w w, second
 /// derivatives h = H x, deformation gradients F = S c, and the energy with its gradient by the chain rule through them.
+/// S_a and q_a are given; what they are is for other tests.
 class SecondOrderReference {
  public:
   using Vector = Eigen::VectorXd;
@@ -24,13 +25,10 @@ class SecondOrderReference {
 
   std::vector<std::vector<ReferencePoint>> cubature;  // of each cell
 
-  SecondOrderReference(const VoronoiBody& body, const Material& m, const Csr<Index>& stencil,
-                       const std::vector<char>& resolved)
-      : linear(body), body_(body), m_(m), n_(body.X.size()), W_(n_), resolved_(resolved) {
-    for (std::size_t a = 0; a < n_; ++a) {
-      if (resolved_[a]) fit(a, stencil.row(static_cast<Index>(a)));
-      cubature.push_back(six_points(a));
-    }
+  SecondOrderReference(const VoronoiBody& body, const Material& m, const SecondDerivatives& given)
+      : linear(body), body_(body), m_(m), n_(body.X.size()), H_(n_), W_(n_), given_(given), resolved_(given.resolved) {
+    for (std::size_t a = 0; a < n_; ++a) cubature.push_back(six_points(a));
+    find_derivatives();
     assemble();
   }
 
@@ -119,36 +117,55 @@ class SecondOrderReference {
     for (int i = 0; i < 3; ++i) x(static_cast<Eigen::Index>(3 * a) + i) += v[i];
   }
 
-  /// Weighted least squares by a QR decomposition.
-  void fit(std::size_t a, std::span<const Index> stencil) {
-    const auto rows = static_cast<Eigen::Index>(stencil.size());
-    Eigen::MatrixXd A(rows, 9), right = Eigen::MatrixXd::Zero(rows, rows);
-    const double scale = std::cbrt(body_.cells.volume[a]);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const Vec3 y =
-          (1.0 / scale) * (body_.X[static_cast<std::size_t>(stencil[static_cast<std::size_t>(i)])] - body_.X[a]);
-      A.row(i) << y.x, y.y, y.z, 0.5 * y.x * y.x, y.x * y.y, y.x * y.z, 0.5 * y.y * y.y, y.y * y.z, 0.5 * y.z * y.z;
-      A.row(i) /= norm(y);
-      right(i, i) = 1.0 / norm(y);
+  using Weights = std::map<std::size_t, std::array<double, 6>>;
+
+  static void add(Weights& to, std::size_t b, double factor, const std::array<double, 6>& w) {
+    for (std::size_t r = 0; r < 6; ++r) to[b][r] += factor * w[r];
+  }
+
+  /// H_a = S_a : G_a of the gradients that particles alone determine, and the weighted means of them.
+  void find_derivatives() {
+    VoronoiBody untied = body_;
+    untied.D.assign(body_.D.size(), {});
+    const ConsistentReference all(untied);
+    std::vector<std::map<std::size_t, Vec3>> F(n_);
+    for (std::size_t a = 0; a < n_; ++a)
+      for (const auto& [f, area] : all.faces_of[a])
+        for (const auto& [b, W] : all.faces[f].W) F[a][b] += (W(0, 0) / body_.cells.volume[a]) * area;
+    const std::vector<Vec3>& X_c = body_.cells.centroid;
+    for (std::size_t a = 0; a < n_; ++a) {
+      if (!resolved_[a]) continue;
+      const auto add_gradient = [&](std::size_t b, double factor, const Vec3& C) {
+        for (const auto& [c, B] : F[b]) {
+          std::array<double, 6> w{};
+          for (std::size_t r = 0; r < 6; ++r)
+            for (std::size_t j = 0; j < 3; ++j)
+              for (std::size_t k = 0; k < 3; ++k)
+                w[r] += given_.map[a][9 * r + 3 * j + k] * B[static_cast<int>(j)] * C[static_cast<int>(k)];
+          add(H_[a], c, factor, w);
+        }
+      };
+      for (const std::size_t b : linear.near[a]) {
+        add_gradient(b, 1.0, X_c[b] - X_c[a]);
+        add_gradient(a, -1.0, X_c[b] - X_c[a]);
+      }
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
-    qr.setThreshold(1e-10);
-    const Eigen::MatrixXd solution = qr.compute(A).solve(right);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      std::array<double, 6> w;
-      for (Eigen::Index k = 0; k < 6; ++k) w[static_cast<std::size_t>(k)] = solution(3 + k, i) / (scale * scale);
-      W_[a].push_back({static_cast<std::size_t>(stencil[static_cast<std::size_t>(i)]), w});
+    for (std::size_t a = 0; a < n_; ++a) {
+      if (!resolved_[a]) continue;
+      std::set<std::size_t> cells = linear.near[a];
+      cells.insert(a);
+      double sum = 0.0;
+      for (const std::size_t b : cells) sum += given_.weight[b];
+      for (const std::size_t b : cells)
+        for (const auto& [c, w] : H_[b]) add(W_[a], c, given_.weight[b] / sum, w);
     }
   }
 
-  /// c += (factor H_a : M) as weights of particles.
-  void add_curvature(std::map<std::size_t, double>& c, std::size_t a, double factor, const Mat3& M) const {
-    for (const auto& [b, w] : W_[a]) {
-      const double s = factor * (w[0] * M(0, 0) + w[3] * M(1, 1) + w[5] * M(2, 2) +
-                                 2.0 * (w[1] * M(0, 1) + w[2] * M(0, 2) + w[4] * M(1, 2)));
-      c[b] += s;
-      c[a] -= s;
-    }
+  /// c += (factor H : M) as weights of particles.
+  static void add_curvature(std::map<std::size_t, double>& c, const Weights& H, double factor, const Mat3& M) {
+    for (const auto& [b, w] : H)
+      c[b] += factor * (w[0] * M(0, 0) + w[3] * M(1, 1) + w[5] * M(2, 2) +
+                        2.0 * (w[1] * M(0, 1) + w[2] * M(0, 2) + w[4] * M(1, 2)));
   }
 
   Mat3 curvature(const std::map<std::size_t, double>& c, const Vec3& origin, const Mat3& mean_square) const {
@@ -181,15 +198,16 @@ class SecondOrderReference {
         const Mat3 M =
             curvature(phi, middle, mean_square(cells.interior_second_moment[f], face.area, face.centroid - middle));
         if (resolved_[a] && resolved_[b]) {
-          add_curvature(phi, a, 0.5, M);
-          add_curvature(phi, b, 0.5, M);
+          const double sum = given_.weight[a] + given_.weight[b];
+          add_curvature(phi, H_[a], given_.weight[a] / sum, M);
+          add_curvature(phi, H_[b], given_.weight[b] / sum, M);
         }
       } else {
         const BoundaryFace& face = cells.boundary[f - interior];
         const auto a = static_cast<std::size_t>(face.owner);
         const Mat3 square =
             mean_square(cells.boundary_second_moment[f - interior], face.area, face.centroid - body_.X[a]);
-        if (resolved_[a] && !phi.empty()) add_curvature(phi, a, 1.0, curvature(phi, body_.X[a], square));
+        if (resolved_[a] && !phi.empty()) add_curvature(phi, W_[a], 1.0, curvature(phi, body_.X[a], square));
         for (std::size_t i = 0; i < 3; ++i)
           for (std::size_t j = 0; j < 3; ++j) put(c_w, 3 * f + i, 3 * (f - interior) + j, D.m[3 * i + j]);
       }
@@ -204,10 +222,7 @@ class SecondOrderReference {
             put(s, 9 * a + 3 * i + j, 3 * f + i, area[static_cast<int>(j)] / cells.volume[a]);
       for (const auto& [b, w] : W_[a])
         for (std::size_t k = 0; k < 6; ++k)
-          for (std::size_t i = 0; i < 3; ++i) {
-            put(h, 18 * a + 3 * k + i, 3 * b + i, w[k]);
-            put(h, 18 * a + 3 * k + i, 3 * a + i, -w[k]);
-          }
+          for (std::size_t i = 0; i < 3; ++i) put(h, 18 * a + 3 * k + i, 3 * b + i, w[k]);
     }
     const auto build = [](Sparse& matrix, std::size_t rows, std::size_t columns, const auto& list) {
       matrix.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
@@ -284,7 +299,8 @@ class SecondOrderReference {
   const VoronoiBody& body_;
   Material m_;
   std::size_t n_;
-  std::vector<std::vector<std::pair<std::size_t, std::array<double, 6>>>> W_;
+  std::vector<Weights> H_, W_;  // second derivatives and their means
+  const SecondDerivatives& given_;
   std::vector<char> resolved_;
 };
 

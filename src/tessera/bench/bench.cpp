@@ -142,7 +142,7 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   Field<Tensor> F(n);
   Field<Double4> f(n), rim_f(s.tiles.rim.size());
   RawField<Tensor> rims(s.gradients ? s.tiles.rim.size() : 0);
-  SecondOrderMemory curved(s.second_order ? n : 0);
+  SecondOrderMemory curved(s);
   parallel::Workspaces<TileScratch> scratches([&] { return std::make_unique<TileScratch>(s); });
   using Lease = parallel::Workspaces<TileScratch>::Lease;
   stages["strain"] = seconds_per_call([&] {
@@ -152,9 +152,7 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
     });
   });
   if (s.second_order) {
-    stages["hessians"] = seconds_per_call([&] { find_hessians(*s.second_order, state.x.data(), curved); });
-    stages["faces"] =
-        seconds_per_call([&] { add_curvature_strain(*s.second_order, s.d.volume.data(), curved, F.data()); });
+    stages["faces"] = seconds_per_call([&] { add_curvature_strain(s, state.x.data(), curved, F.data()); });
   }
   const auto second_pass = [&](std::int64_t task) {
     const Lease scratch(scratches);
@@ -183,8 +181,7 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   stages["contact"] = share * each.contact;
   stages["stress"] = share * each.stress;
   stages["force"] = share * each.force;
-  if (s.second_order)
-    stages["hessian forces"] = seconds_per_call([&] { add_hessian_forces(*s.second_order, curved, f.data()); });
+  if (s.second_order) stages["curvature stress"] = seconds_per_call([&] { return_curvature(s, curved); });
   stages["rims"] = seconds_per_call([&] {
     parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
       collect_rims(s.tiles, rim_f.data(), f.data(), static_cast<Index>(begin), static_cast<Index>(end));

@@ -20,32 +20,25 @@ struct PerParticle {
   double bonds, slots, rim;
 };
 
-constexpr double fit = sizeof(QuadraticFit), hessian = sizeof(Hessian), moment = sizeof(FitMoment);
-constexpr double points = sizeof(ThreeTensors), face = sizeof(HessianRows::Face);
-
-struct PerCell {
-  explicit PerCell(const SecondOrderSystem& s)
-      : stencil(static_cast<double>(s.rows.stencil.value.size()) / static_cast<double>(s.points.size())),
-        faces(static_cast<double>(s.rows.faces.size()) / static_cast<double>(s.points.size())) {}
-
-  double stencil, faces;
-};
+constexpr double hessian = sizeof(Hessian), points = sizeof(ThreeTensors), face = 6.0 * number;
+constexpr double map = 54.0 * number, constants_of_a_lane = sizeof(CurvatureRows::Constants) / 4.0;
 
 /// What second-order integration streams beside the rest: each array once a sweep.
-double second_order_bytes(const SecondOrderSystem& s) {
-  const PerCell n(s);
-  const double hessians = 2.0 * vector + n.stencil * index + fit + hessian;
-  const double strain = n.faces * face + hessian + 2.0 * tensor + number;
+double second_order_bytes(const PerParticle& n) {
+  const double nodes = 1.0 + n.rim, rows = n.slots * local + row + constants_of_a_lane;
+  const double hessians = nodes * (tensor + vec3) + n.rim * index + rows + map + hessian;
+  const double strain =
+      nodes * (hessian + vec3) + n.rim * index + rows + n.slots * face + 2.0 * tensor + number + hessian;
   const double cubature = 2.0 * hessian + 2.0 * sizeof(Mat3) + 4.0 * points + 2.0 * tensor;
-  const double moments = n.faces * face + tensor + 2.0 * hessian + fit + moment;
-  const double forces = vector + n.stencil * index + moment + hessian + 6.0 * number + 2.0 * vector;
+  const double moments = nodes * (tensor + hessian + 2.0 * vec3 + number) + n.rim * index + rows + n.slots * face +
+                         map + n.bonds * incoming + nodes * (tensor + local);
+  const double forces = tensor + n.rim * tensor;
   return hessians + strain + cubature + moments + forces;
 }
 
-double second_order_memory_bytes(const SecondOrderSystem& s) {
-  const PerCell n(s);
-  return vector + n.stencil * 2.0 * index + 2.0 * offset + fit + 6.0 * number + offset + n.faces * face + sizeof(Mat3) +
-         hessian + points + moment + tensor + vec3 + 6.0 * number /* measure */;
+double second_order_memory_bytes(const PerParticle& n) {
+  return n.slots * (local + face) + map + constants_of_a_lane + number + sizeof(Mat3) + 2.0 * hessian + points +
+         2.0 * tensor + n.rim * tensor + vec3 /* centroid */;
 }
 
 }  // namespace
@@ -61,7 +54,7 @@ double bytes_per_particle_step(const System& s) {
   const double cells = (1.0 + n.rim) * (vec3 + local) + sizeof(Mat3) + n.bonds * incoming + 2.0 * tensor +
                        n.rim * (2.0 * tensor + index) + offset + number;
   return strain + contact_and_stress + force + rims + kick_and_drift + (s.gradients ? cells : 0.0) +
-         (s.second_order ? second_order_bytes(*s.second_order) : 0.0);
+         (s.second_order ? second_order_bytes(n) : 0.0);
 }
 
 double bytes_per_particle(const System& s) {
@@ -73,7 +66,7 @@ double bytes_per_particle(const System& s) {
   const double viscous = s.viscosity.empty() ? 0.0 : 2.0 * tensor + sizeof(ViscosityLaw);
   const double cells = vec3 /* centroid */ + sizeof(Mat3) + (1.0 + n.rim) * tensor;
   return bonds + rims + constants + state + viscous + (s.gradients ? cells : 0.0) +
-         (s.second_order ? second_order_memory_bytes(*s.second_order) : 0.0);
+         (s.second_order ? second_order_memory_bytes(n) : 0.0);
 }
 
 }  // namespace tessera

@@ -242,7 +242,7 @@ Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells
     const FacePositions positions = face_positions(X, cells, faces, D);
     build_bonds(d, cells, faces, positions, D);
     if (order == FaceOrder::quadratic) {
-      CurvedFaces curved = curved_faces(X, cells, faces, positions, D);
+      CurvedFaces curved = curved_faces(d, cells, faces, positions, D);
       d.second_order = std::move(curved.second_order);
       d.measure = measure_of_cells(cells);
       build_boundary(d, curved.boundary, cells, D);

@@ -13,7 +13,8 @@ namespace tessera {
 ///
 /// Second derivatives add H_f : M_f to c_f, with M_f = (S_f - sum_c phi_fc Y_c (x) Y_c) / 2: S_f is the face's mean of
 /// Y (x) Y, Y_c are the particles of its stencil, both about the middle of the branch, or about the owner of a boundary
-/// face. H_f is the mean of both cells'. Faces of cells whose quadratics are not resolved stay as they are.
+/// face. H_f is the weighted mean of both cells', or the owner's mean one. Faces of cells whose quadratics are not
+/// resolved stay as they are.
 struct CurvedFaces {
   SecondOrder second_order;
   Csr<FaceTerm> boundary;  // c_f as sums over particles, as FacePositions::boundary
@@ -23,8 +24,8 @@ struct CurvedFaces {
 /// [m4]).
 FaceSpread face_spread(const Symmetric3& second_moment, double area);
 
-/// `cells` must have the second moments of faces; `D` holds one projection per boundary face.
-CurvedFaces curved_faces(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
+/// `cells` must have the second moments of faces, `d` its bonds; `D` holds one projection per boundary face.
+CurvedFaces curved_faces(const Discretization& d, const Cells& cells, const Csr<FaceOfCell>& faces,
                          const FacePositions& positions, std::span<const Mat3> D);
 
 }  // namespace tessera

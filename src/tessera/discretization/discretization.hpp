@@ -10,7 +10,7 @@
 #include "tessera/base/index.hpp"
 #include "tessera/base/mat3.hpp"
 #include "tessera/base/symmetric.hpp"
-#include "tessera/discretization/quadratic_fit.hpp"
+#include "tessera/discretization/second_derivatives.hpp"
 
 namespace tessera {
 
@@ -107,26 +107,21 @@ struct DirectForce {
   std::vector<Vec3> B_aa;  // per particle [m2]
 };
 
-/// A face as one of its cells sees it, for what second derivatives add to its position, c_f += (H_a + H_b)/2 : M.
-struct CurvedFace {
-  Index neighbour = 0;
-  Vec3 area;     // outward [m2]
-  Symmetric3 M;  // [m2]
-};
-
-/// Of a cell at the boundary: sum_f A_f M_f over its free boundary faces, whose c_f += H_a : M_f; one vector for each
-/// second derivative (xx, xy, xz, yy, yz, zz), mixed ones counted twice [m4].
+/// Of a cell at the boundary: sum_f A_f M_f over its free boundary faces, whose c_f += (mean H_a) : M_f; one vector for
+/// each second derivative (xx, xy, xz, yy, yz, zz), mixed ones counted twice [m4].
 struct CurvedSurface {
   Index particle = 0;
   std::array<Vec3, 6> area_moment;
 };
 
-/// What makes quadratic motion exact (theory, "Second order"): second derivatives, and the faces that they move. What
-/// they do to boundary nodes and load shares is part of these.
+/// What makes quadratic motion exact (theory, "Second order"): second derivatives, and the faces that they move, c_f +=
+/// (q_a H_a + q_b H_b) / (q_a + q_b) : M_f. What they do to boundary nodes and load shares is part of these.
 struct SecondOrder {
-  QuadraticFits fits;
-  Csr<CurvedFace> faces;                // one row a particle
+  SecondDerivatives derivatives;
+  RawField<Symmetric3> M;               // per bond, of its face; zero where one of the cells is not resolved [m2]
   std::vector<CurvedSurface> surfaces;  // sorted by particle
+  std::vector<HeldFace> held;           // the faces of the boundary nodes, in their order...
+  Csr<FaceTerm> extrapolated;           // ... and their positions by particles alone, one row each
 };
 
 /// The regions over which the F_a are means, for integrals over cells. Each has the particle's volume V_a.

@@ -39,6 +39,9 @@ class FaceFitter {
   /// Return whether the stencil had to be widened.
   bool interior(const InteriorFace& f, Scratch& s, StencilFunction& function) const;
   bool boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Collector& out) const;
+  /// Adds the terms of a boundary face's position and returns whether its stencil had to be widened, or -1 if nothing
+  /// spans the way there.
+  int extrapolate(const BoundaryFace& f, const Mat3& D, Scratch& s, Collector& out) const;
 
  private:
   void add_neighbours(Index a, std::vector<Index>& list) const {
@@ -117,7 +120,7 @@ void FaceFitter::second_ring(Index a, Scratch& s) const {
 /// The free components of c_f = x_a + sum_c w_c (x_c - x_a): over the neighbours, over theirs too where those do not
 /// span the way from the particle to the face. What a symmetric face moves along its normal is prescribed, so
 /// its residual may point there (a slab one cell thick).
-bool FaceFitter::boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Collector& out) const {
+int FaceFitter::extrapolate(const BoundaryFace& f, const Mat3& D, Scratch& s, Collector& out) const {
   const Vec3 offset = f.centroid - at(f.owner), N = normalized(f.area);
   const double size = std::cbrt(cells_.volume[static_cast<std::size_t>(f.owner)]);
   const Mat3 beyond_normal = D - outer(N, N);
@@ -139,8 +142,14 @@ bool FaceFitter::boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Coll
       sum += s.w[c];
     }
     out.add({f.owner, 1.0 - sum});
-    return widened;
+    return widened ? 1 : 0;
   }
+  return -1;
+}
+
+bool FaceFitter::boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Collector& out) const {
+  const int widened = extrapolate(f, D, s, out);
+  if (widened >= 0) return widened == 1;
   throw GeometryError(
       fmt::format("the boundary face of particle {} cannot follow a linear motion: the particle's neighbours lie in "
                   "one plane or line; use at least two layers of particles in every direction",
@@ -155,6 +164,16 @@ std::vector<Index> marked(const std::vector<char>& marks) {
 }
 
 }  // namespace
+
+Csr<FaceTerm> extrapolated_positions(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
+                                     std::span<const Mat3> D, std::span<const Index> wanted) {
+  const FaceFitter fitter(X, cells, faces);
+  return parallel::collect_rows<FaceTerm>(static_cast<Index>(wanted.size()), [&](Index i, Collector& out) {
+    thread_local Scratch scratch;
+    const auto k = static_cast<std::size_t>(wanted[static_cast<std::size_t>(i)]);
+    fitter.extrapolate(cells.boundary[k], D[k], scratch, out);
+  });
+}
 
 FacePositions face_positions(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
                              std::span<const Mat3> D) {

@@ -56,15 +56,17 @@ void append_bonds(Bonds& all, Bonds& more, Index shift) {
 }
 
 void append_second_order(SecondOrder& all, SecondOrder more, Index shift) {
-  for (Index& b : more.fits.stencil.value) b += shift;
-  for (CurvedFace& f : more.faces.value) f.neighbour += shift;
   for (CurvedSurface& s : more.surfaces) s.particle += shift;
-  append_rows(all.fits.stencil, more.fits.stencil);
-  move_to_end(all.fits.fit, more.fits.fit);
-  move_to_end(all.fits.resolved, more.fits.resolved);
-  move_to_end(all.fits.amplification, more.fits.amplification);
-  append_rows(all.faces, more.faces);
+  for (HeldFace& f : more.held) f.owner += shift;
+  for (FaceTerm& t : more.extrapolated.value) t.particle += shift;
+  move_to_end(all.derivatives.map, more.derivatives.map);
+  move_to_end(all.derivatives.resolved, more.derivatives.resolved);
+  move_to_end(all.derivatives.weight, more.derivatives.weight);
+  move_to_end(all.derivatives.amplification, more.derivatives.amplification);
+  move_to_end(all.M, more.M);
   move_to_end(all.surfaces, more.surfaces);
+  move_to_end(all.held, more.held);
+  append_rows(all.extrapolated, more.extrapolated);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ Forces::Forces(const System& system, Flow flow)
         return scratch;
       }),
       flow_(flow),
-      curved_(system.second_order ? system.d.X.size() : 0) {
+      curved_(system) {
   const auto particles = static_cast<std::size_t>(system.particles());
   const auto nodes = static_cast<std::size_t>(system.boundary_nodes());
   F_.resize(particles);
@@ -81,8 +81,9 @@ void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
   if (system_.second_order) {
     sums_ = over_tiles([&](Index tile) { return curved_stresses(tile, state, dt); });
     return_gradients(*system_.second_order, system_.d.volume.data(), curved_);
-    sums_ += over_tiles([&](Index tile) { return curved_forces(tile, state); });
-    add_hessian_forces(*system_.second_order, curved_, f_.data());
+    return_curvature(system_, curved_);
+    sums_ += over_tiles([&](Index tile) { return curved_forces(tile); });
+    add_extrapolated_forces(*system_.second_order, curved_, f_.data());
   } else if (cells_by_tile()) {
     sums_ = over_tiles([&](Index tile) { return cell_stresses(tile, state, dt); });
     sums_ += over_tiles([&](Index tile) { return cell_forces(tile, state); });
@@ -101,14 +102,13 @@ void Forces::restore_previous_deformation(Field<Tensor> F) {
 void Forces::strain(State& state, const ExternalAction& action) {
   const System& s = system_;
   if (!s.viscosity.empty()) std::swap(F_, viscous_.F_previous);
-  if (s.second_order) find_hessians(*s.second_order, state.x.data(), curved_);
   fill_boundary_nodes(s, action.walls, state.x.data());
   parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
     const Lease scratch(scratch_);
     strain_sweep(s, static_cast<Index>(tile), state.x.data(), F_.data(), *scratch);
   });
+  if (s.second_order) add_curvature_strain(s, state.x.data(), curved_, F_.data());
   add_boundary_strain(s, state.x.data(), F_.data());
-  if (s.second_order) add_curvature_strain(*s.second_order, s.d.volume.data(), curved_, F_.data());
 }
 
 /// Where laws see a mean change of volume: the elastic stresses of all particles, known before the tiles' turn.
@@ -176,32 +176,34 @@ StressSums Forces::curved_stresses(Index tile, const State& state, double dt) {
     sums = varied_stress_sweep(s, tile, F_.data(), curved_.points.data(), history, viscous, dt, *scratch,
                                curved_.points.data(), {});
   }
-  sums.contact = contact;
   take_moments(*s.second_order, t.begin, t.end, curved_);
-  for (Index a = t.begin; a < t.end; ++a)
-    curved_.T[static_cast<std::size_t>(a)] = to_tensor(scratch->T[static_cast<std::size_t>(a - t.begin)]);
-  return sums;
-}
-
-/// Boundary bonds complete the stresses of their owners before those go to the faces.
-StressSums Forces::curved_forces(Index tile, const State& state) {
-  const Tile& t = tile_of(system_, tile);
-  const Lease scratch(scratch_);
-  for (Index a = t.begin; a < t.end; ++a)
-    scratch->T[static_cast<std::size_t>(a - t.begin)] = to_kernel(curved_.T[static_cast<std::size_t>(a)]);
-  StressSums sums;
-  sums.contact = boundary_forces(tile, state, *scratch);
-  for_each_owner(system_, tile, [&](Index, Index a) {
-    curved_.T[static_cast<std::size_t>(a)] = to_tensor(scratch->T[static_cast<std::size_t>(a - t.begin)]);
+  sums.contact = contact;
+  for_each_owner(s, tile, [&](Index k, Index a) {
+    sums.contact += add_boundary_bonds(s, k, state.x.data(), F_[static_cast<std::size_t>(a)],
+                                       scratch->T[static_cast<std::size_t>(a - t.begin)],
+                                       f_[static_cast<std::size_t>(a)], R_.data());
   });
-  hand_on(tile, *scratch);
+  for (Index a = t.begin; a < t.end; ++a)
+    curved_.T[static_cast<std::size_t>(a)] = to_tensor(scratch->T[static_cast<std::size_t>(a - t.begin)]);
   return sums;
 }
 
-/// Stresses of all cells without viscosity and bonds, complete in `memory`, at the state of the last evaluation.
+/// What complete stresses do: T at boundary nodes, T' between particles.
+StressSums Forces::curved_forces(Index tile) {
+  const Lease scratch(scratch_);
+  for_each_owner(system_, tile, [&](Index k, Index a) {
+    add_node_forces(system_, k, to_kernel(curved_.T[static_cast<std::size_t>(a)]), R_.data());
+  });
+  recall_first(system_, tile, curved_, scratch->T.data());
+  hand_on(tile, *scratch);
+  return {};
+}
+
+/// Stresses of all cells with viscosity but without bonds, and what second derivatives make of them, in `memory`, at
+/// the state of the last evaluation.
 void Forces::report_curved(const State& state, const CellReport& report, SecondOrderMemory& memory) const {
   const System& s = system_;
-  find_hessians(*s.second_order, state.x.data(), memory);
+  memory.H = curved_.H;
   const HistorySpan history{state.plastic.data(), nullptr, flow_};
   std::optional<AveragedCubature> averaged;
   if (averaged_points_) {
@@ -225,6 +227,9 @@ void Forces::report_curved(const State& state, const CellReport& report, SecondO
       memory.T[static_cast<std::size_t>(a)] = to_tensor(scratch->T[static_cast<std::size_t>(a - t.begin)]);
   });
   return_gradients(*s.second_order, s.d.volume.data(), memory);
+  for (std::size_t a = 0; a < viscous_.P_previous.size(); ++a)
+    memory.T[a] = to_tensor(to_kernel(memory.T[a]) + to_kernel(viscous_.P_previous[a]));
+  return_curvature(s, memory);
 }
 
 void Forces::recall(Index tile, const CellMemory& cells, TileScratch& scratch) const {
@@ -295,7 +300,7 @@ std::vector<double> Forces::smallest_J(const State& state) const {
   const System& s = system_;
   std::vector<double> J(static_cast<std::size_t>(s.particles()));
   if (s.second_order) {
-    SecondOrderMemory memory(J.size());
+    SecondOrderMemory memory(s);
     report_curved(state, {nullptr, J.data()}, memory);
     return J;
   }
@@ -327,7 +332,7 @@ Forces::Internal Forces::internal(const State& state) const {
   const Vec3* B = s.d.direct ? s.tiles.direct_B.data() : s.tiles.B.data();
   const Vec3* B_aa = s.d.direct ? s.d.direct->B_aa.data() : s.d.B_aa.data();
   CellMemory cells;
-  SecondOrderMemory curved(s.second_order ? particles : 0);
+  SecondOrderMemory curved(s);
   if (s.gradients || s.second_order) result.energy.resize(particles);
   if (s.second_order) report_curved(state, {result.P.data(), nullptr, result.energy.data()}, curved);
   if (averaged_cells_) {
@@ -358,7 +363,7 @@ Forces::Internal Forces::internal(const State& state) const {
     Columns* P = split() ? scratch->P.data() : scratch->T.data();
     std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
     if (s.second_order) {
-      for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(curved.T[static_cast<std::size_t>(a)]);
+      recall_first(s, tile, curved, P);
     } else if (s.gradients) {
       for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(cells.T[static_cast<std::size_t>(a)]);
       if (cells_by_tile()) collect_rim_stresses(s, tile, cells.rim_energies.data(), P);
@@ -370,17 +375,17 @@ Forces::Internal Forces::internal(const State& state) const {
       if (!s.gradients && !s.second_order) result.P[k] = to_tensor(P[a - t.begin]);
       if (viscous_.P_previous.empty()) continue;
       const Columns viscous = to_kernel(viscous_.P_previous[k]);
-      P[a - t.begin] = P[a - t.begin] + viscous;
+      if (!s.second_order) P[a - t.begin] = P[a - t.begin] + viscous;
       result.P[k] = to_tensor(to_kernel(result.P[k]) + viscous);
-      if (s.second_order) curved.T[k] = to_tensor(P[a - t.begin]);
     }
     for_each_owner(s, tile, [&](Index k, Index a) {
-      owners_P[static_cast<std::size_t>(k)] = P[a - t.begin];
-      add_node_forces(s, k, P[a - t.begin], R.data());
+      const Columns T = s.second_order ? to_kernel(curved.T[static_cast<std::size_t>(a)]) : P[a - t.begin];
+      owners_P[static_cast<std::size_t>(k)] = T;
+      add_node_forces(s, k, T, R.data());
     });
     force_sweep(s, tile, P, B, B_aa, result.force.data(), rim_f.data());
   });
-  if (s.second_order) add_hessian_forces(*s.second_order, curved, result.force.data());
+  if (s.second_order) add_extrapolated_forces(*s.second_order, curved, result.force.data());
   std::vector<Vec3> reactions(static_cast<std::size_t>(s.boundary_nodes()));
   if (split()) {
     if (!s.d.direct) drain_with_held_branches(s, owners_P.data(), R.data(), result.force.data());

@@ -26,8 +26,8 @@ struct ExternalAction {
 
 /// Forces as the gradient of the potential: fill the boundary nodes; strain tile by tile; stress and force tile by
 /// tile; drain the boundary nodes; add up. With cell integration stresses are complete only when all tiles have theirs,
-/// so forces are a pass of their own; with second-order integration second derivatives are one before strain and one at
-/// the end. One object is kept and reused.
+/// so forces are a pass of their own; with second-order integration second derivatives follow from strains and act on
+/// them, and the same backwards before forces. One object is kept and reused.
 class Forces {
  public:
   explicit Forces(const System& system, Flow flow = Flow::allowed);
@@ -85,7 +85,7 @@ class Forces {
   double boundary_forces(Index tile, const State& state, TileScratch& scratch);
   void hand_on(Index tile, TileScratch& scratch);
   StressSums curved_stresses(Index tile, const State& state, double dt);
-  StressSums curved_forces(Index tile, const State& state);
+  StressSums curved_forces(Index tile);
   void report_curved(const State& state, const CellReport& report, SecondOrderMemory& memory) const;
   void drain();
   void finish(const State& state, const ExternalAction& action);

@@ -61,6 +61,7 @@ inline void add_outer(Columns& T, const Double4& v, const Vec3& B) {
 }
 
 inline Columns operator+(const Columns& a, const Columns& b) { return {a.c0 + b.c0, a.c1 + b.c1, a.c2 + b.c2}; }
+inline Columns operator-(const Columns& a, const Columns& b) { return {a.c0 - b.c0, a.c1 - b.c1, a.c2 - b.c2}; }
 inline Columns operator*(double s, const Columns& a) { return {s * a.c0, s * a.c1, s * a.c2}; }
 
 }  // namespace tessera

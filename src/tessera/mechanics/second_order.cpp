@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tessera/mechanics/cell_sweeps.hpp"
+#include "tessera/mechanics/system.hpp"
 #include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
@@ -9,8 +11,6 @@ namespace tessera {
 namespace {
 
 using GradientTerm = SecondOrderSystem::GradientTerm;
-
-Columns operator-(const Columns& a, const Columns& b) { return {a.c0 - b.c0, a.c1 - b.c1, a.c2 - b.c2}; }
 
 /// Weights of the neighbours' F_b - F_a in F at the points: least squares of a linear F, weights 1/r^2 between
 /// centroids.
@@ -57,40 +57,122 @@ void for_unresolved(const SecondOrderSystem& s, Index begin, Index end, Body&& b
     body(static_cast<Index>(it - s.unresolved.begin()), *it);
 }
 
+void transpose_faces(SecondOrderSystem& s) {
+  struct Target {
+    Index particle;
+    SecondOrderSystem::FaceShare share;
+  };
+  std::vector<Target> targets;
+  for (Index k = 0; k < s.extrapolated.rows(); ++k)
+    for (const FaceTerm& t : s.extrapolated.row(k)) targets.push_back({t.particle, {k, t.weight}});
+  std::stable_sort(targets.begin(), targets.end(),
+                   [](const Target& l, const Target& r) { return l.particle < r.particle; });
+  for (const Target& t : targets) {
+    if (s.extrapolating.empty() || s.extrapolating.back() != t.particle) {
+      s.extrapolating.push_back(t.particle);
+      s.face_shares.offset.push_back(s.face_shares.offset.back());
+    }
+    s.face_shares.value.push_back(t.share);
+    ++s.face_shares.offset.back();
+  }
+}
+
+/// Adds the extrapolated faces, times the sign, to F of their owners.
+void add_extrapolated_strain(const System& s, double sign, const Double4* x, Tensor* F) {
+  const SecondOrderSystem& c = *s.second_order;
+  parallel::for_each(static_cast<std::int64_t>(s.owners.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Index a = s.owners[k];
+    Columns sum{};
+    for (Index f = s.first_node[k]; f < s.first_node[k + 1]; ++f) {
+      Double4 way{};
+      for (const FaceTerm& t : c.extrapolated.row(f)) way += t.weight * (x[t.particle] - x[a]);
+      add_outer(sum, way, c.held[static_cast<std::size_t>(f)].area);
+    }
+    F[a] = to_tensor(to_kernel(F[a]) + (sign / s.d.volume[static_cast<std::size_t>(a)]) * sum);
+  });
+}
+
+/// Calls body(surface) for the surfaces of all cells at free boundaries, one for each cell.
 template <class Body>
-void for_all_particles(const SecondOrderSystem& s, Body&& body) {
-  parallel::for_ranges(0, static_cast<std::int64_t>(s.points.size()), [&](std::int64_t begin, std::int64_t end) {
-    body(static_cast<Index>(begin), static_cast<Index>(end));
+void for_all_surfaces(const System& s, Body&& body) {
+  const std::vector<CurvedSurface>& surfaces = s.second_order->rows.surfaces;
+  parallel::for_each(static_cast<std::int64_t>(surfaces.size()),
+                     [&](std::int64_t k) { body(surfaces[static_cast<std::size_t>(k)]); });
+}
+
+template <class Body>
+void for_all_tiles(const System& s, const SecondOrderMemory& memory, Body&& body) {
+  parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
+    const parallel::Workspaces<CurvatureScratch>::Lease scratch(memory.scratch);
+    body(static_cast<Index>(tile), *scratch);
+  });
+}
+
+void add_surface_strain(const System& s, const Hessian* H, Tensor* F) {
+  for_all_surfaces(s, [&](const CurvedSurface& c) {
+    Tensor& F_a = F[c.particle];
+    const double inverse_volume = 1.0 / s.d.volume[static_cast<std::size_t>(c.particle)];
+    for (std::size_t r = 0; r < 6; ++r)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t i = 0; i < 3; ++i)
+          F_a.m[3 * j + i] += inverse_volume * H[c.particle].h[3 * r + i] * c.area_moment[r][static_cast<int>(j)];
+  });
+}
+
+void add_surface_moments(const System& s, const Tensor* T, Hessian* G) {
+  for_all_surfaces(s, [&](const CurvedSurface& c) {
+    for (std::size_t r = 0; r < 6; ++r) {
+      const Double4 force = apply(to_kernel(T[c.particle]), c.area_moment[r]);
+      for (std::size_t i = 0; i < 3; ++i) G[c.particle].h[3 * r + i] += force[static_cast<int>(i)];
+    }
   });
 }
 
 }  // namespace
 
-SecondOrderSystem second_order_system(const Discretization& d) {
+SecondOrderSystem second_order_system(const Discretization& d, const Tiles& tiles) {
   SecondOrderSystem s;
-  s.rows = hessian_rows(d);
+  s.rows = curvature_rows(d, tiles);
   const CellGradients gradients = cell_gradients(d);
   s.points.resize(d.X.size());
   parallel::for_each(d.particles(), [&](std::int64_t a) {
     s.points[static_cast<std::size_t>(a)] = cubature_points(d.measure->second_moment[static_cast<std::size_t>(a)]);
   });
   for (Index a = 0; a < d.particles(); ++a) {
-    if (d.second_order->fits.resolved[static_cast<std::size_t>(a)]) continue;
+    if (d.second_order->derivatives.resolved[static_cast<std::size_t>(a)]) continue;
     s.unresolved.push_back(a);
     add_gradient_row(d, a, gradients.to_points[static_cast<std::size_t>(a)], s.gradients);
   }
   transpose_gradients(s);
+  s.held = d.second_order->held;
+  s.extrapolated = d.second_order->extrapolated;
+  transpose_faces(s);
   return s;
 }
 
-void find_hessians(const SecondOrderSystem& s, const Double4* x, SecondOrderMemory& memory) {
-  for_all_particles(s, [&](Index begin, Index end) { hessian_sweep(s.rows, begin, end, x, memory.H.data()); });
+SecondOrderMemory::SecondOrderMemory(const System& s)
+    : scratch([&tiles = s.tiles] { return std::make_unique<CurvatureScratch>(tiles); }) {
+  if (!s.second_order) return;
+  const auto particles = static_cast<std::size_t>(s.particles());
+  weighted.resize(particles);
+  H.resize(particles);
+  points.resize(particles);
+  T.resize(particles);
+  T_first.resize(particles);
+  rim_energies.resize(s.tiles.rim.size());
 }
 
-void add_curvature_strain(const SecondOrderSystem& s, const double* volume, const SecondOrderMemory& memory,
-                          Tensor* F) {
-  for_all_particles(
-      s, [&](Index begin, Index end) { curvature_strain_sweep(s.rows, volume, begin, end, memory.H.data(), F); });
+void add_curvature_strain(const System& s, const Double4* x, SecondOrderMemory& memory, Tensor* F) {
+  add_extrapolated_strain(s, 1.0, x, F);
+  for_all_tiles(s, memory, [&](Index tile, CurvatureScratch& scratch) {
+    hessian_sweep(s, tile, F, scratch, memory.weighted.data());
+  });
+  for_all_tiles(s, memory, [&](Index tile, CurvatureScratch& scratch) {
+    curvature_strain_sweep(s, tile, memory.weighted.data(), scratch, F, memory.H.data());
+  });
+  add_surface_strain(s, memory.H.data(), F);
+  add_extrapolated_strain(s, -1.0, x, F);
 }
 
 void find_point_strains(const SecondOrderSystem& s, Index begin, Index end, const Tensor* F,
@@ -106,8 +188,8 @@ void find_point_strains(const SecondOrderSystem& s, Index begin, Index end, cons
 }
 
 void take_moments(const SecondOrderSystem& s, Index begin, Index end, SecondOrderMemory& memory) {
-  point_moment_sweep(s.points.data(), begin, end, memory.points.data(), memory.H.data());
-  for_unresolved(s, begin, end, [&](Index, Index a) { memory.H[static_cast<std::size_t>(a)] = {}; });
+  point_moment_sweep(s.points.data(), begin, end, memory.points.data(), memory.weighted.data());
+  for_unresolved(s, begin, end, [&](Index, Index a) { memory.weighted[static_cast<std::size_t>(a)] = {}; });
 }
 
 void return_gradients(const SecondOrderSystem& s, const double* volume, SecondOrderMemory& memory) {
@@ -122,12 +204,33 @@ void return_gradients(const SecondOrderSystem& s, const double* volume, SecondOr
   });
 }
 
-void add_hessian_forces(const SecondOrderSystem& s, SecondOrderMemory& memory, Double4* f) {
-  for_all_particles(s, [&](Index begin, Index end) {
-    curvature_moment_sweep(s.rows, begin, end, memory.T.data(), memory.H.data(), memory.moments.data());
+void return_curvature(const System& s, SecondOrderMemory& memory) {
+  add_surface_moments(s, memory.T.data(), memory.weighted.data());
+  for_all_tiles(s, memory, [&](Index tile, CurvatureScratch& scratch) {
+    curvature_moment_sweep(s, tile, memory.T.data(), memory.weighted.data(), scratch, memory.T_first.data(),
+                           memory.rim_energies.data());
   });
-  for_all_particles(s, [&](Index begin, Index end) {
-    hessian_force_sweep(s.rows, begin, end, memory.H.data(), memory.moments.data(), f);
+}
+
+void recall_first(const System& s, Index tile, SecondOrderMemory& memory, Columns* T) {
+  const Tile& t = s.tiles.tiles[static_cast<std::size_t>(tile)];
+  for (Index a = t.begin; a < t.end; ++a) T[a - t.begin] = to_kernel(memory.T_first[static_cast<std::size_t>(a)]);
+  collect_rim_stresses(s, tile, memory.rim_energies.data(), T);
+  for (Index k = t.first_owner; k < s.tiles.end_of(tile).first_owner; ++k) {
+    const Index a = s.owners[static_cast<std::size_t>(k)];
+    memory.T_first[static_cast<std::size_t>(a)] = to_tensor(T[a - t.begin]);
+  }
+}
+
+void add_extrapolated_forces(const SecondOrderSystem& s, const SecondOrderMemory& memory, Double4* f) {
+  parallel::for_each(static_cast<std::int64_t>(s.extrapolating.size()), [&](std::int64_t i) {
+    Double4 sum{};
+    for (const SecondOrderSystem::FaceShare& t : s.face_shares.row(static_cast<Index>(i))) {
+      const HeldFace& face = s.held[static_cast<std::size_t>(t.face)];
+      const auto a = static_cast<std::size_t>(face.owner);
+      sum += t.weight * apply(to_kernel(memory.T_first[a]) - to_kernel(memory.T[a]), face.area);
+    }
+    f[s.extrapolating[static_cast<std::size_t>(i)]] -= sum;
   });
 }
 

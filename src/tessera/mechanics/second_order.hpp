@@ -5,6 +5,7 @@
 #include "tessera/base/csr.hpp"
 #include "tessera/discretization/cell_measure.hpp"
 #include "tessera/mechanics/hessians.hpp"
+#include "tessera/parallel/workspaces.hpp"
 
 namespace tessera {
 
@@ -16,33 +17,44 @@ struct SecondOrderSystem {
     Vec3 weight;
   };
 
-  HessianRows rows;
+  /// How much of an extrapolated face's position a particle has, or of the force there.
+  struct FaceShare {
+    Index face = 0;
+    double weight = 0.0;
+  };
+
+  CurvatureRows rows;
   std::vector<Mat3> points;       // columns: distances of three cubature points from the centroid [m]
   std::vector<Index> unresolved;  // cells whose points follow from the neighbours' F, ascending
   Csr<GradientTerm> gradients;    // one row for each of them
   std::vector<Index> receivers;   // cells that these rows name, ascending, with one row each
   Csr<GradientTerm> returned;
+
+  std::vector<HeldFace> held;        // faces of boundary nodes, in their order...
+  Csr<FaceTerm> extrapolated;        // ... and where particles alone see them
+  std::vector<Index> extrapolating;  // the particles in those rows, ascending, with one row each
+  Csr<FaceShare> face_shares;
 };
 
 /// Needs the bonds.
-SecondOrderSystem second_order_system(const Discretization& d);
+SecondOrderSystem second_order_system(const Discretization& d, const Tiles& tiles);
 
 /// What changes with every evaluation.
 struct SecondOrderMemory {
-  Field<Hessian> H;            // H_a; later G_a, the derivative of the energy with respect to it
-  Field<ThreeTensors> points;  // F at three points of each cell less F_a; later what multiplies it in the energy [J]
-  Field<FitMoment> moments;
-  Field<Tensor> T;  // complete stresses [Pa]
+  explicit SecondOrderMemory(const System& s);
 
-  explicit SecondOrderMemory(std::size_t particles)
-      : H(particles), points(particles), moments(particles), T(particles) {}
+  Field<Hessian> weighted;     // q_a H_a; later the derivative of the energy with respect to the mean H_a
+  Field<Hessian> H;            // mean second derivatives
+  Field<ThreeTensors> points;  // F at three points of each cell less F_a; later what multiplies it in the energy [J]
+  Field<Tensor> T;             // complete stresses [Pa]
+  Field<Tensor> T_first;       // stresses by way of F', but for rim_energies [Pa]
+  RawField<Tensor> rim_energies;
+  mutable parallel::Workspaces<CurvatureScratch> scratch;
 };
 
-/// Second derivatives of all particles.
-void find_hessians(const SecondOrderSystem& s, const Double4* x, SecondOrderMemory& memory);
-
-/// Adds to F what second derivatives do by the positions of faces.
-void add_curvature_strain(const SecondOrderSystem& s, const double* volume, const SecondOrderMemory& memory, Tensor* F);
+/// When the strain sweep has left in F what bonds between particles do: F' first, second derivatives from it, and F but
+/// for what boundary nodes do beyond the particles that see their faces too.
+void add_curvature_strain(const System& s, const Double4* x, SecondOrderMemory& memory, Tensor* F);
 
 /// When F is complete: `points` of the cells [begin, end), from H_a, or from differences of F where it is not resolved.
 void find_point_strains(const SecondOrderSystem& s, Index begin, Index end, const Tensor* F, SecondOrderMemory& memory);
@@ -53,7 +65,13 @@ void take_moments(const SecondOrderSystem& s, Index begin, Index end, SecondOrde
 /// When all those are: adds to T what unresolved cells do to their neighbours.
 void return_gradients(const SecondOrderSystem& s, const double* volume, SecondOrderMemory& memory);
 
-/// When T is complete: the forces of moments and stresses by way of the second derivatives.
-void add_hessian_forces(const SecondOrderSystem& s, SecondOrderMemory& memory, Double4* f);
+/// When T is complete: the stresses T' that second derivatives make of it, those by way of F'.
+void return_curvature(const System& s, SecondOrderMemory& memory);
+
+/// T' of a tile's own particles, complete.
+void recall_first(const System& s, Index tile, SecondOrderMemory& memory, Columns* T);
+
+/// Adds the forces of T' - T by the extrapolated positions of faces. Complete T' must be in T_first for their owners.
+void add_extrapolated_forces(const SecondOrderSystem& s, const SecondOrderMemory& memory, Double4* f);
 
 }  // namespace tessera

@@ -109,9 +109,10 @@ System make_system(Discretization d, std::vector<Material> materials, const std:
   s.tiles = make_tiles(s.d, s.ranges, particles_per_tile > 0 ? particles_per_tile : tile_size(s.particles()));
   find_owners_of_tiles(s);
   if (s.d.second_order) {
-    s.second_order = second_order_system(s.d);
+    s.second_order = second_order_system(s.d, s.tiles);
     s.stress_points = stress_points_of_a_cell;
     s.d.second_order.reset();
+    s.d.measure->second_moment = {};
   } else if (s.d.measure) {
     s.gradients = cell_gradients(s.d);
     s.d.measure->second_moment = {};

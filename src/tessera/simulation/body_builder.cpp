@@ -171,19 +171,16 @@ struct BodyCells {
   double solid_volume = 0.0;  // [m3]
 };
 
-std::string describe_fits(const std::string& body, const QuadraticFits& fits) {
-  const auto unresolved = std::count(fits.resolved.begin(), fits.resolved.end(), 0);
-  std::string text =
-      fmt::format("second-order integration of body \"{}\": second derivatives from {:.3g} particles on average", body,
-                  static_cast<double>(fits.stencil.value.size()) /
-                      static_cast<double>(
-                          std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(fits.resolved.size()) - unresolved, 1)));
-  if (unresolved > 0)
-    text += fmt::format(
-        "; {} of {} cells take integration = \"cell\" and linear faces, for the particles around them do not determine "
-        "second derivatives (fewer than three layers in some direction)",
-        unresolved, fits.resolved.size());
-  return text;
+/// Empty where every cell has second derivatives.
+std::string describe_unresolved(const std::string& body, const std::vector<char>& resolved) {
+  const auto unresolved = std::count(resolved.begin(), resolved.end(), 0);
+  if (unresolved == 0) return {};
+  return fmt::format(
+      "second-order integration of body \"{}\": {} of {} cells take integration = \"cell\" and linear faces, for the "
+      "particles around them do not determine second derivatives (fewer than three layers in some direction, or "
+      "several "
+      "faces with one neighbour)",
+      body, unresolved, resolved.size());
 }
 
 /// Constraints, loads and bonds of a body whose surface is known.
@@ -195,7 +192,9 @@ void discretize_cells(const Case& c, const BodyCells& made, const std::vector<Bo
   for (const PointConstraint& p : b.pieces) D.push_back(p.D);
   b.d = discretize(c.method, made.X, made.cells, D);
   if (c.method.integration == Integration::cell) b.d.measure = measure_of_cells(made.cells);
-  if (b.d.second_order) b.notes.push_back(describe_fits(b.surface.body, b.d.second_order->fits));
+  if (b.d.second_order)
+    if (std::string note = describe_unresolved(b.surface.body, b.d.second_order->derivatives.resolved); !note.empty())
+      b.notes.push_back(std::move(note));
   for (const BoundaryNode& f : b.d.nodes) b.constraints.push_back(b.pieces[static_cast<std::size_t>(f.site)]);
   b.identities = identities_of_voronoi(b.d, made.cells, made.solid_volume);
   refuse_loads_on_held_components(b, c.time.end);

@@ -44,7 +44,7 @@ TEST(SecondOrderForces, AreThoseOfTheReference) {
   for (const Body& b : bodies()) {
     SCOPED_TRACE(b.name);
     const Discretization d = discretize(Method::consistent, b.body, Integration::second_order);
-    const SecondOrderReference reference(b.body, m, d.second_order->fits.stencil, d.second_order->fits.resolved);
+    const SecondOrderReference reference(b.body, m, d.second_order->derivatives);
     const auto motion = [](const Vec3& X) { return wavy((1.0 / 6.0) * X) * 6.0; };
     const std::vector<Vec3> x = noisy(b.body.X, motion, 0.03 * std::cbrt(b.body.cells.volume[0]));
     std::vector<Vec3> walls;
@@ -83,10 +83,11 @@ Mat3 its_gradient(const Vec3& X) {
 }
 
 std::vector<char> exact_cells(const Discretization& d) {
-  std::vector<char> exact = d.second_order->fits.resolved;
+  std::vector<char> exact = d.second_order->derivatives.resolved;
   for (Index a = 0; a < d.particles(); ++a)
     for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i)
-      if (!d.second_order->fits.resolved[static_cast<std::size_t>(d.bonds.neighbour[static_cast<std::size_t>(i)])])
+      if (!d.second_order->derivatives
+               .resolved[static_cast<std::size_t>(d.bonds.neighbour[static_cast<std::size_t>(i)])])
         exact[static_cast<std::size_t>(a)] = 0;
   return exact;
 }
@@ -129,7 +130,7 @@ TEST(QuadraticMotion, IsExactInsideAndAtFacesOfAllKinds) {
 TEST(QuadraticMotion, IsNotExactWithLinearFaces) {
   const VoronoiBody body = voronoi_body(box({1, 1, 1}), {5, 5, 5}, 0.25, 9, nothing);
   Discretization d = discretize(Method::consistent, body, Integration::second_order);
-  for (CurvedFace& f : d.second_order->faces.value) f.M = {};
+  for (Symmetric3& M : d.second_order->M) M = {};
   EXPECT_GT(error_of_quadratic_motion(d, 125), 1e-3);
 }
 
