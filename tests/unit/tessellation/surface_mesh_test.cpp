@@ -203,7 +203,8 @@ TEST(SurfaceMesh, SaysWhatIsMissingWithoutAMesher) {
 /// A program that calls itself gmsh and does what `script` says.
 class FalseGmsh {
  public:
-  explicit FalseGmsh(const std::string& script) : folder_(testing::TempDir() + "false-gmsh") {
+  explicit FalseGmsh(const std::string& script)
+      : folder_(testing::TempDir() + "false-gmsh-" + testing::UnitTest::GetInstance()->current_test_info()->name()) {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ + "/gmsh") << "#!/bin/sh\n" << script;
     std::filesystem::permissions(folder_ + "/gmsh", std::filesystem::perms::owner_all);
