@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,30 @@ Csr<T> group_by_row(Index rows, std::span<const T> items, RowOf row_of) {
   csr.value.resize(items.size());
   for (const T& item : items)
     csr.value[static_cast<std::size_t>(next[static_cast<std::size_t>(row_of(item))]++)] = item;
+  return csr;
+}
+
+/// An item and the number of the row that it belongs to.
+template <class T>
+struct RowItem {
+  Index row = 0;
+  T item;
+};
+
+/// The same where few rows have items: `rows` names those that have, ascending, and the result holds one row for each.
+template <class T>
+Csr<T> group_by_used_row(std::vector<RowItem<T>> items, std::vector<Index>& rows) {
+  std::stable_sort(items.begin(), items.end(), [](const RowItem<T>& l, const RowItem<T>& r) { return l.row < r.row; });
+  rows.clear();
+  Csr<T> csr;
+  for (const RowItem<T>& i : items) {
+    if (rows.empty() || rows.back() != i.row) {
+      rows.push_back(i.row);
+      csr.offset.push_back(csr.offset.back());
+    }
+    csr.value.push_back(i.item);
+    ++csr.offset.back();
+  }
   return csr;
 }
 

@@ -27,26 +27,13 @@ void add_gradient_row(const Discretization& d, Index a, const Mat3& to_points, C
 }
 
 void transpose_gradients(SecondOrderSystem& s) {
-  struct Target {
-    Index receiver;
-    GradientTerm term;
-  };
-  std::vector<Target> targets;
+  std::vector<RowItem<GradientTerm>> targets;
   for (std::size_t k = 0; k < s.unresolved.size(); ++k)
     for (const GradientTerm& t : s.gradients.row(static_cast<Index>(k))) {
       targets.push_back({t.cell, {static_cast<Index>(k), t.weight}});
       targets.push_back({s.unresolved[k], {static_cast<Index>(k), -t.weight}});
     }
-  std::stable_sort(targets.begin(), targets.end(),
-                   [](const Target& l, const Target& r) { return l.receiver < r.receiver; });
-  for (const Target& t : targets) {
-    if (s.receivers.empty() || s.receivers.back() != t.receiver) {
-      s.receivers.push_back(t.receiver);
-      s.returned.offset.push_back(s.returned.offset.back());
-    }
-    s.returned.value.push_back(t.term);
-    ++s.returned.offset.back();
-  }
+  s.returned = group_by_used_row(std::move(targets), s.receivers);
 }
 
 /// Calls body(k, a) for the unresolved cells in [begin, end): number and particle.
@@ -58,23 +45,10 @@ void for_unresolved(const SecondOrderSystem& s, Index begin, Index end, Body&& b
 }
 
 void transpose_faces(SecondOrderSystem& s) {
-  struct Target {
-    Index particle;
-    SecondOrderSystem::FaceShare share;
-  };
-  std::vector<Target> targets;
+  std::vector<RowItem<SecondOrderSystem::FaceShare>> targets;
   for (Index k = 0; k < s.extrapolated.rows(); ++k)
     for (const FaceTerm& t : s.extrapolated.row(k)) targets.push_back({t.particle, {k, t.weight}});
-  std::stable_sort(targets.begin(), targets.end(),
-                   [](const Target& l, const Target& r) { return l.particle < r.particle; });
-  for (const Target& t : targets) {
-    if (s.extrapolating.empty() || s.extrapolating.back() != t.particle) {
-      s.extrapolating.push_back(t.particle);
-      s.face_shares.offset.push_back(s.face_shares.offset.back());
-    }
-    s.face_shares.value.push_back(t.share);
-    ++s.face_shares.offset.back();
-  }
+  s.face_shares = group_by_used_row(std::move(targets), s.extrapolating);
 }
 
 /// Adds the extrapolated faces, times the sign, to F of their owners.

@@ -40,32 +40,21 @@ void group_owners(System& s) {
   s.first_node.push_back(s.boundary_nodes());
 }
 
-struct Target {
-  Index node;
-  ReturnTerm term;
-};
-
 void transpose_closure(System& s) {
+  using Target = RowItem<ReturnTerm>;
   std::vector<Target> to_particles, to_nodes;
   for (Index f = 0; f < s.boundary_nodes(); ++f)
     for (const ClosureTerm& t : s.d.closure.row(f)) {
-      const Target target{t.node, {f, t.constrained, t.free}};
-      (t.node < s.particles() ? to_particles : to_nodes).push_back(target);
+      const ReturnTerm term{f, t.constrained, t.free};
+      if (t.node < s.particles())
+        to_particles.push_back({t.node, term});
+      else
+        to_nodes.push_back({t.node - s.particles(), term});
     }
-  std::stable_sort(to_particles.begin(), to_particles.end(),
-                   [](const Target& l, const Target& r) { return l.node < r.node; });
-  for (const Target& t : to_particles) {
-    if (s.receivers.empty() || s.receivers.back() != t.node) {
-      s.receivers.push_back(t.node);
-      s.returned.offset.push_back(s.returned.offset.back());
-    }
-    s.returned.value.push_back(t.term);
-    ++s.returned.offset.back();
-  }
-  for (Target& t : to_nodes) t.node -= s.particles();
-  const Csr<Target> rows = group_by_row<Target>(s.boundary_nodes(), to_nodes, [](const Target& t) { return t.node; });
+  s.returned = group_by_used_row(std::move(to_particles), s.receivers);
+  const Csr<Target> rows = group_by_row<Target>(s.boundary_nodes(), to_nodes, [](const Target& t) { return t.row; });
   s.returned_to_node.offset = rows.offset;
-  for (const Target& t : rows.value) s.returned_to_node.value.push_back(t.term);
+  for (const Target& t : rows.value) s.returned_to_node.value.push_back(t.item);
 }
 
 /// The owners of each tile's boundary nodes.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "support/small_bodies.hpp"
+#include "support/differences.hpp"
 #include "tessera/laws/law_lanes.hpp"
 
 namespace tessera::test {
@@ -38,16 +38,7 @@ TEST_P(LawsAtPoints, ForcesAgreeWithCentralDifferences) {
     trial.evaluate(moved, {walls, {}, {}}, 0.0);
     return trial.sums().internal + trial.sums().contact + trial.sums().dissipated;
   };
-  double scale = 0.0;
-  for (const Double4& f : forces.total()) scale = std::max(scale, norm(to_vec3(f)));
-  const double h = 1e-5;
-  for (std::size_t a = 0; a < s.d.X.size(); ++a)
-    for (int i = 0; i < 3; ++i) {
-      State plus = state, minus = state;
-      plus.x[a][i] += h;
-      minus.x[a][i] -= h;
-      EXPECT_NEAR(forces.total()[a][i], -(potential(plus) - potential(minus)) / (2.0 * h), 2e-7 * scale) << a;
-    }
+  expect_minus_gradient(state, forces, potential);
 }
 
 /// The stress that a law answers to two deformations, one after the other.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "support/small_bodies.hpp"
+#include "support/differences.hpp"
 
 namespace tessera::test {
 namespace {
@@ -44,16 +44,7 @@ class FlowInBodies : public LawsInBodies {};
 
 /// Forces are minus the derivative of the (incremental) potential at the history that is given.
 TEST_P(LawsInBodies, AgreeWithCentralDifferences) {
-  double scale = 0.0;
-  for (const Double4& f : forces.total()) scale = std::max(scale, norm(to_vec3(f)));
-  const double h = 1e-5;
-  for (std::size_t a = 0; a < s.d.X.size(); ++a)
-    for (int i = 0; i < 3; ++i) {
-      State plus = state, minus = state;
-      plus.x[a][i] += h;
-      minus.x[a][i] -= h;
-      EXPECT_NEAR(forces.total()[a][i], -(potential(plus) - potential(minus)) / (2.0 * h), 2e-7 * scale) << a;
-    }
+  expect_minus_gradient(state, forces, [this](const State& moved) { return potential(moved); });
 }
 
 /// Evaluations leave the state's history alone; commit() takes it over once, and the same stress follows from both.

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <random>
 
 #include "support/balance.hpp"
 #include "support/consistent_reference.hpp"
+#include "support/radii.hpp"
 #include "support/triangle_surfaces.hpp"
 #include "tessera/discretization/identities.hpp"
 #include "tessera/tessellation/surface_cells.hpp"
@@ -13,17 +13,6 @@ namespace tessera::test {
 namespace {
 
 constexpr std::array integrations{Integration::nodal, Integration::cell, Integration::second_order};
-
-/// Weights of radii up to `largest` [m], so different that faces lie far from the middles of branches.
-std::vector<double> weights_up_to(double largest, std::size_t points, unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < points; ++i) {
-    const double r = largest * static_cast<double>(random()) / 0x1p32;
-    weights.push_back(r * r);
-  }
-  return weights;
-}
 
 struct Body {
   std::string name;

@@ -1,22 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <random>
-
+#include "support/radii.hpp"
 #include "surface_helpers.hpp"
 #include "tessera/tessellation/tetrahedra.hpp"
 
 namespace tessera::test {
 namespace {
-
-std::vector<double> weights_up_to(double largest, std::size_t points, unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < points; ++i) {
-    const double r = largest * static_cast<double>(random()) / 0x1p32;
-    weights.push_back(r * r);
-  }
-  return weights;
-}
 
 /// |x - X_a|^2 - r_a^2.
 double power(const std::vector<Vec3>& points, const std::vector<double>& weights, std::size_t a, const Vec3& x) {
