@@ -141,7 +141,7 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   const auto n = static_cast<std::size_t>(s.particles());
   Field<Tensor> F(n);
   Field<Double4> f(n), rim_f(s.tiles.rim.size());
-  RawField<Tensor> rims(s.gradients ? s.tiles.rim.size() : 0);
+  RawField<Tensor> own(s.gradients ? n : 0), rims(s.gradients ? s.tiles.rim.size() : 0);
   SecondOrderMemory curved(s);
   parallel::Workspaces<TileScratch> scratches([&] { return std::make_unique<TileScratch>(s); });
   using Lease = parallel::Workspaces<TileScratch>::Lease;
@@ -163,7 +163,7 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
       if (s.second_order)
         second_order_stress(s, tile, F.data(), *scratch, curved);
       else if (s.gradients)
-        cell_stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, *scratch, rims.data(), {});
+        cell_stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, *scratch, {own.data(), rims.data()}, {});
       else
         stress_sweep(s, tile, F.data(), {}, nullptr, 0.0, *scratch);
     });

@@ -233,8 +233,7 @@ TESSERA_CELL_KERNELS(J2Plasticity)
 #undef TESSERA_CELL_KERNEL
 
 /// What the moments of the tile's own stresses do to F_b: sum_a Z_a C_ab / r^2 of the bonds that lead to b, [J].
-TESSERA_KERNEL void return_moments(const System& s, Index k, const TileScratch& scratch, Columns* __restrict T,
-                                   Tensor* __restrict rim) {
+TESSERA_KERNEL void return_moments(const System& s, Index k, const TileScratch& scratch, const CellStress& stress) {
   const Tile& tile = tile_of(s, k);
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const std::uint16_t* count = s.tiles.incoming_count.data() + tile.node;
@@ -255,21 +254,43 @@ TESSERA_KERNEL void return_moments(const System& s, Index k, const TileScratch& 
     return sum[0] + sum[1] + sum[2];
   };
   const double* volume = s.d.volume.data() + tile.begin;
-  for (Index a = 0; a < own; ++a) T[a] = T[a] + (1.0 / volume[a]) * received(count[a]);
-  for (Index i = 0; i < rim_size; ++i) store(rim[tile.rim + i], received(count[own + i]));
+  const Columns* T = scratch.P.empty() ? scratch.T.data() : scratch.P.data();
+  Tensor* __restrict to = stress.own + tile.begin, * __restrict rim = stress.rim + tile.rim;
+  for (Index a = 0; a < own; ++a) store(to[a], T[a] + (1.0 / volume[a]) * received(count[a]));
+  for (Index i = 0; i < rim_size; ++i) store(rim[i], received(count[own + i]));
 }
+
+/// The gradient vectors of a tile, fetched a few lines with each of its particles.
+class LinesOfTile {
+ public:
+  LinesOfTile(const System& s, Index k)
+      : first_(reinterpret_cast<const char*>(s.tiles.B.data() + tile_of(s, k).slot)),
+        lines_((s.tiles.end_of(k).slot - tile_of(s, k).slot) * static_cast<Offset>(sizeof(Vec3)) / line /
+                   std::max<Index>(tile_of(s, k).size(), 1) +
+               1) {}
+
+  void fetch(Index particle) const {
+    const char* B = first_ + particle * lines_ * line;
+    for (Offset i = 0; i < lines_; ++i) __builtin_prefetch(B + line * i);
+  }
+
+ private:
+  static constexpr Offset line = 64;
+  const char* first_;
+  Offset lines_;  // for each particle
+};
 
 }  // namespace
 
 StressSums cell_stress_sweep(const System& s, Index k, const Tensor* F, const HistorySpan& history,
-                             ViscousMemory* viscous, double dt, TileScratch& scratch, Tensor* rim,
+                             ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
                              const CellReport& report) {
   const Material& m = s.materials[static_cast<std::size_t>(tile_of(s, k).material)];
   const NeighbourVariation variation(s, k, scratch);
   const StressSums sums = visit_law(m.law, history.flow, [&](const auto& law) {
     return cell_kernel(s, k, law, F, variation, history, viscous, dt, scratch, report);
   });
-  return_moments(s, k, scratch, scratch.P.empty() ? scratch.T.data() : scratch.P.data(), rim);
+  return_moments(s, k, scratch, stress);
   return sums;
 }
 
@@ -288,16 +309,24 @@ void load_tile(const System& s, Index k, const Double4* x, const Tensor* F, Tile
   fill_nodes(s, k, x, F, scratch.nodes.data());
 }
 
-void collect_rim_stresses(const System& s, Index k, const Tensor* rims, Columns* T) {
+TESSERA_KERNEL void complete_stresses(const System& s, Index k, const Tensor* own, const Tensor* rims,
+                                      Columns* __restrict T) {
   const Tile& tile = tile_of(s, k);
-  const Tiles& t = s.tiles;
-  for (Index a = tile.begin; a < tile.end; ++a) {
-    const auto n = static_cast<std::size_t>(a);
-    if (t.rim_offset[n] == t.rim_offset[n + 1]) continue;
+  const Index size = tile.size();
+  const Offset* offset = s.tiles.rim_offset.data() + tile.begin;
+  const Index* place = s.tiles.rim_place.data();
+  const double* volume = s.d.volume.data() + tile.begin;
+  const Offset last = s.tiles.rim_offset.back() - 1;
+  const LinesOfTile B(s, k);
+  own += tile.begin;
+  for (Index a = 0; a < size; ++a) {
+    B.fetch(a);
     Columns sum{};
-    for (Offset i = t.rim_offset[n]; i < t.rim_offset[n + 1]; ++i)
-      sum = sum + to_kernel(rims[t.rim_place[static_cast<std::size_t>(i)]]);
-    T[a - tile.begin] = T[a - tile.begin] + (1.0 / s.d.volume[n]) * sum;
+    for (Offset i = offset[a]; i < offset[a + 1]; ++i) {
+      fetch(rims + place[std::min(i + 2 * lookahead, last)]);
+      sum = sum + to_kernel(rims[place[i]]);
+    }
+    T[a] = to_kernel(own[a]) + (1.0 / volume[a]) * sum;
   }
 }
 

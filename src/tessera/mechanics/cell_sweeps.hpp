@@ -14,6 +14,12 @@ struct CellMemory {
   RawField<Tensor> rim_energies;  // what a tile's cells add to V_b T_b of its rim [J]
 };
 
+/// Where the stresses of cells go, one entry a particle and one a place in a rim.
+struct CellStress {
+  Tensor* own;  // that the bonds hand on, or its elastic and viscous part where the scratch has room for it [Pa]
+  Tensor* rim;  // what a tile's cells add to V_b T_b of its rim [J]
+};
+
 /// What is wanted of single cells beside their forces, one entry a particle or null.
 struct CellReport {
   Tensor* mean = nullptr;        // of the stress over the cell, without viscosity [Pa]
@@ -22,10 +28,10 @@ struct CellReport {
 };
 
 /// The elastic and viscous stress of the tile's own particles by their points: adds it, and what the moments of the
-/// points' stresses do to the tile's own F_b, to T (or P, where the scratch has room for it); `rim` is set to what they
-/// do to those of the rim. Needs the nodes that contact_sweep has left.
+/// points' stresses do to the tile's own F_b, to the scratch's T (or P, where there is room for it) and leaves it in
+/// `stress`, along with what they do to those of the rim. Needs the nodes that contact_sweep has left.
 StressSums cell_stress_sweep(const System& s, Index tile, const Tensor* F, const HistorySpan& history,
-                             ViscousMemory* viscous, double dt, TileScratch& scratch, Tensor* rim,
+                             ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
                              const CellReport& report);
 
 /// The same where the variation of F is known: `E` are the E_q of every particle, `Z` takes V_a dU/dE_q of the tile's
@@ -37,7 +43,8 @@ StressSums varied_stress_sweep(const System& s, Index tile, const Tensor* F, con
 /// Puts the tile's nodes into the scratch where there is no contact_sweep before.
 void load_tile(const System& s, Index tile, const Double4* x, const Tensor* F, TileScratch& scratch);
 
-/// Adds to the stresses T of the tile's own particles what the cells of other tiles have put into their rims.
-void collect_rim_stresses(const System& s, Index tile, const Tensor* rims, Columns* T);
+/// The stresses of the tile's own particles, `own` with what the cells of other tiles have put into their rims. Brings
+/// the tile's gradient vectors near, which forces need next.
+void complete_stresses(const System& s, Index tile, const Tensor* own, const Tensor* rims, Columns* T);
 
 }  // namespace tessera

@@ -139,14 +139,14 @@ StressSums Forces::cell_stresses(Index tile, const State& state, double dt) {
   const Lease scratch(scratch_);
   const double contact = contact_sweep(s, tile, state.x.data(), F_.data(), f_.data(), *scratch);
   const HistorySpan history{state.plastic.data(), history_after_.data(), flow_};
+  Field<Tensor>& own = split() ? cells_.P : cells_.T;
   StressSums sums = cell_stress_sweep(s, tile, F_.data(), history, s.viscosity.empty() ? nullptr : &viscous_, dt,
-                                      *scratch, cells_.rim_energies.data(), {});
+                                      *scratch, {own.data(), cells_.rim_energies.data()}, {});
   sums.contact = contact;
+  if (!split()) return sums;
   const auto first = static_cast<std::size_t>(tile_of(s, tile).begin);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(s, tile).size()); ++a) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(s, tile).size()); ++a)
     cells_.T[first + a] = to_tensor(scratch->T[a]);
-    if (split()) cells_.P[first + a] = to_tensor(scratch->P[a]);
-  }
   return sums;
 }
 
@@ -233,12 +233,15 @@ void Forces::report_curved(const State& state, const CellReport& report, SecondO
 }
 
 void Forces::recall(Index tile, const CellMemory& cells, TileScratch& scratch) const {
-  const auto first = static_cast<std::size_t>(tile_of(system_, tile).begin);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(system_, tile).size()); ++a) {
-    scratch.T[a] = to_kernel(cells.T[first + a]);
-    if (!cells.P.empty()) scratch.P[a] = to_kernel(cells.P[first + a]);
+  const Tensor* rims = cells.rim_energies.data();
+  if (cells.P.empty()) {
+    complete_stresses(system_, tile, cells.T.data(), rims, scratch.T.data());
+    return;
   }
-  collect_rim_stresses(system_, tile, cells.rim_energies.data(), cells.P.empty() ? scratch.T.data() : scratch.P.data());
+  complete_stresses(system_, tile, cells.P.data(), rims, scratch.P.data());
+  const auto first = static_cast<std::size_t>(tile_of(system_, tile).begin);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(system_, tile).size()); ++a)
+    scratch.T[a] = to_kernel(cells.T[first + a]);
 }
 
 /// Elastic and viscous stress of one tile's own particles.
@@ -312,13 +315,13 @@ std::vector<double> Forces::smallest_J(const State& state) const {
     for (std::size_t a = 0; a < J.size(); ++a) J[a] = determinant(to_mat3(F_[a]));
     return J;
   }
-  RawField<Tensor> rims(s.tiles.rim.size());
+  RawField<Tensor> own(J.size()), rims(s.tiles.rim.size());
   parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
     const auto tile = static_cast<Index>(task);
     const Lease scratch(scratch_);
     load_tile(s, tile, state.x.data(), F_.data(), *scratch);
-    cell_stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch, rims.data(),
-                      {nullptr, J.data(), nullptr});
+    cell_stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch,
+                      {own.data(), rims.data()}, {nullptr, J.data(), nullptr});
   });
   return J;
 }
@@ -346,14 +349,11 @@ Forces::Internal Forces::internal(const State& state) const {
     cells.rim_energies.resize(s.tiles.rim.size());
     parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
       const auto tile = static_cast<Index>(task);
-      const Tile& t = tile_of(s, tile);
       const Lease scratch(scratch_);
       load_tile(s, tile, state.x.data(), F_.data(), *scratch);
-      Columns* P = split() ? scratch->P.data() : scratch->T.data();
       std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
       cell_stress_sweep(s, tile, F_.data(), {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch,
-                        cells.rim_energies.data(), {result.P.data(), nullptr, result.energy.data()});
-      for (Index a = t.begin; a < t.end; ++a) cells.T[static_cast<std::size_t>(a)] = to_tensor(P[a - t.begin]);
+                        {cells.T.data(), cells.rim_energies.data()}, {result.P.data(), nullptr, result.energy.data()});
     });
   }
   parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
@@ -364,9 +364,10 @@ Forces::Internal Forces::internal(const State& state) const {
     std::fill(scratch->T.begin(), scratch->T.end(), Columns{});
     if (s.second_order) {
       recall_first(s, tile, curved, P);
-    } else if (s.gradients) {
+    } else if (cells_by_tile()) {
+      complete_stresses(s, tile, cells.T.data(), cells.rim_energies.data(), P);
+    } else if (averaged_cells_) {
       for (Index a = t.begin; a < t.end; ++a) P[a - t.begin] = to_kernel(cells.T[static_cast<std::size_t>(a)]);
-      if (cells_by_tile()) collect_rim_stresses(s, tile, cells.rim_energies.data(), P);
     } else {
       elastic_stress(tile, {state.plastic.data(), nullptr, flow_}, nullptr, 0.0, *scratch);
     }

@@ -188,8 +188,7 @@ void return_curvature(const System& s, SecondOrderMemory& memory) {
 
 void recall_first(const System& s, Index tile, SecondOrderMemory& memory, Columns* T) {
   const Tile& t = s.tiles.tiles[static_cast<std::size_t>(tile)];
-  for (Index a = t.begin; a < t.end; ++a) T[a - t.begin] = to_kernel(memory.T_first[static_cast<std::size_t>(a)]);
-  collect_rim_stresses(s, tile, memory.rim_energies.data(), T);
+  complete_stresses(s, tile, memory.T_first.data(), memory.rim_energies.data(), T);
   for (Index k = t.first_owner; k < s.tiles.end_of(tile).first_owner; ++k) {
     const Index a = s.owners[static_cast<std::size_t>(k)];
     memory.T_first[static_cast<std::size_t>(a)] = to_tensor(T[a - t.begin]);
