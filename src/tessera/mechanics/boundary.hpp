@@ -8,6 +8,13 @@
 
 namespace tessera {
 
+/// Calls body(k, a) for every owner of boundary nodes in a tile: its number and the particle.
+template <class Body>
+void for_each_owner(const System& s, Index tile, Body&& body) {
+  for (Index k = s.tiles.tiles[static_cast<std::size_t>(tile)].first_owner; k < s.tiles.end_of(tile).first_owner; ++k)
+    body(k, s.owners[static_cast<std::size_t>(k)]);
+}
+
 /// Fills the boundary nodes' positions from the walls' current positions and the particles (the closure), [V 24].
 void fill_boundary_nodes(const System& s, std::span<const Vec3> walls, Double4* x);
 

@@ -1,0 +1,98 @@
+#include "tessera/mechanics/averaged_cubature.hpp"
+#include "tessera/mechanics/stress_forces.hpp"
+#include "tessera/mechanics/stress_integration.hpp"
+#include "tessera/mechanics/tile_nodes.hpp"
+
+namespace tessera {
+
+namespace {
+
+/// Six points a cell (theory, section 11): their variation follows from the neighbours' F, which take a part of the
+/// stress in turn.
+class CellIntegration : public StressIntegration {
+ public:
+  CellIntegration(const System& s, Scratches& scratches) : StressIntegration(s, scratches) {
+    cells_.T.resize(s.d.X.size());
+    if (treats_stresses_apart(s)) cells_.P.resize(s.d.X.size());
+    cells_.rim_energies.resize(s.tiles.rim.size());
+  }
+
+  std::unique_ptr<StressIntegration> apart() const override { return cell_integration(s_, scratches_); }
+
+  /// Stresses of all cells, and their part in those of the rims.
+  StressSums gather(const StressTask& task) override {
+    return sum_tiles(s_, scratches_, [&](Index tile, TileScratch& scratch) {
+      const double contact = add_bonds(s_, tile, task, scratch);
+      if (task.bonds.f == nullptr) load_tile(s_, tile, task.x, task.F, scratch);
+      StressSums sums = cell_stress_sweep(
+          s_, tile, task.F, task.history, task.viscous, task.dt, scratch,
+          {stresses_apart() ? cells_.P.data() : cells_.T.data(), cells_.rim_energies.data()}, task.report);
+      sums.contact = contact;
+      if (stresses_apart()) keep_contact_stress(tile, scratch);
+      return sums;
+    });
+  }
+
+  StressSums stresses(const StressTask& task, Index tile, TileScratch& scratch) override {
+    recall(tile, scratch);
+    add_known_viscous_stress(s_, tile, task, scratch);
+    StressSums sums;
+    sums.contact = add_boundary_bonds(s_, tile, task, scratch);
+    return sums;
+  }
+
+ private:
+  bool stresses_apart() const { return !cells_.P.empty(); }
+
+  void keep_contact_stress(Index tile, const TileScratch& scratch) {
+    const Tile& t = tile_of(s_, tile);
+    for (Index a = t.begin; a < t.end; ++a)
+      cells_.T[static_cast<std::size_t>(a)] = to_tensor(scratch.T[static_cast<std::size_t>(a - t.begin)]);
+  }
+
+  void recall(Index tile, TileScratch& scratch) const {
+    const Tensor* rims = cells_.rim_energies.data();
+    if (!stresses_apart()) {
+      complete_stresses(s_, tile, cells_.T.data(), rims, scratch.T.data());
+      return;
+    }
+    complete_stresses(s_, tile, cells_.P.data(), rims, scratch.P.data());
+    const Tile& t = tile_of(s_, tile);
+    for (Index a = t.begin; a < t.end; ++a)
+      scratch.T[static_cast<std::size_t>(a - t.begin)] = to_kernel(cells_.T[static_cast<std::size_t>(a)]);
+  }
+
+  CellMemory cells_;
+};
+
+/// The same where laws see the mean change of volume around a cell: elastic stresses are known first.
+class AveragedCellIntegration : public StressIntegration {
+ public:
+  AveragedCellIntegration(const System& s, Scratches& scratches) : StressIntegration(s, scratches), averaged_(s) {}
+
+  std::unique_ptr<StressIntegration> apart() const override { return cell_integration(s_, scratches_); }
+
+  StressSums gather(const StressTask& task) override { return averaged_.evaluate(task.F, task.history, task.report); }
+
+  StressSums stresses(const StressTask& task, Index tile, TileScratch& scratch) override {
+    const double contact = add_bonds(s_, tile, task, scratch);
+    StressSums sums = known_stress_sweep(s_, tile, task.F, averaged_.T(), task.viscous, task.dt, scratch);
+    add_known_viscous_stress(s_, tile, task, scratch);
+    sums.contact = contact + add_boundary_bonds(s_, tile, task, scratch);
+    return sums;
+  }
+
+  Mat3 law_deformation(std::size_t a, const Tensor& F) const override { return averaged_.law_deformation(a, F); }
+
+ private:
+  AveragedCells averaged_;
+};
+
+}  // namespace
+
+std::unique_ptr<StressIntegration> cell_integration(const System& s, StressIntegration::Scratches& scratches) {
+  if (s.average) return std::make_unique<AveragedCellIntegration>(s, scratches);
+  return std::make_unique<CellIntegration>(s, scratches);
+}
+
+}  // namespace tessera

@@ -1,0 +1,71 @@
+#include "tessera/mechanics/stress_forces.hpp"
+
+#include <algorithm>
+
+#include "tessera/mechanics/boundary.hpp"
+#include "tessera/mechanics/tile_nodes.hpp"
+
+namespace tessera {
+
+bool treats_stresses_apart(const System& s) {
+  const bool direct_reactions = s.d.boundary_force == BoundaryForce::direct && s.boundary_nodes() > 0;
+  return direct_reactions || s.d.direct.has_value();
+}
+
+StressForces::StressForces(const System& s)
+    : s_(s),
+      split_(treats_stresses_apart(s)),
+      f_(static_cast<std::size_t>(s.particles())),
+      R_(static_cast<std::size_t>(s.boundary_nodes())),
+      rim_f_(s.tiles.rim.size()) {
+  if (s.d.direct) rim_f_direct_.resize(s.tiles.rim.size());
+  if (split_) owners_P_.resize(s.owners.size());
+}
+
+StressSums StressForces::find(StressIntegration& integration, const StressTask& task,
+                              StressIntegration::Scratches& scratches, std::span<Vec3> reactions) {
+  StressSums sums = integration.gather(task);
+  sums += sum_tiles(s_, scratches, [&](Index tile, TileScratch& scratch) {
+    const StressSums of_tile = integration.stresses(task, tile, scratch);
+    act_on_nodes(tile, scratch);
+    integration.turn_to_particles(tile, scratch);
+    act_on_particles(tile, scratch);
+    return of_tile;
+  });
+  integration.add_forces(f_.data());
+  drain(reactions);
+  return sums;
+}
+
+void StressForces::act_on_nodes(Index tile, const TileScratch& scratch) {
+  for_each_owner(s_, tile, [&](Index k, Index a) {
+    const auto local = static_cast<std::size_t>(a - tile_of(s_, tile).begin);
+    add_node_forces(s_, k, scratch.T[local], R_.data());
+    if (split_) owners_P_[static_cast<std::size_t>(k)] = scratch.P[local];
+  });
+}
+
+void StressForces::act_on_particles(Index tile, TileScratch& scratch) {
+  if (split_ && !s_.d.direct)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(s_, tile).size()); ++a)
+      scratch.T[a] = scratch.P[a] + scratch.T[a];
+  force_sweep(s_, tile, scratch.T.data(), s_.tiles.B.data(), s_.d.B_aa.data(), f_.data(), rim_f_.data());
+  if (s_.d.direct)
+    force_sweep(s_, tile, scratch.P.data(), s_.tiles.direct_B.data(), s_.d.direct->B_aa.data(), f_.data(),
+                rim_f_direct_.data());
+}
+
+void StressForces::drain(std::span<Vec3> reactions) {
+  std::fill(reactions.begin(), reactions.end(), Vec3{});
+  drain_boundary_nodes(s_, R_.data(), f_.data(), reactions);
+  if (!split_) return;
+  if (!s_.d.direct) drain_with_held_branches(s_, owners_P_.data(), R_.data(), f_.data());
+  add_direct_reactions(s_, owners_P_.data(), f_.data(), reactions);
+}
+
+void StressForces::collect(Index first, Index last) {
+  collect_rims(s_.tiles, rim_f_.data(), f_.data(), first, last);
+  if (s_.d.direct) collect_rims(s_.tiles, rim_f_direct_.data(), f_.data(), first, last);
+}
+
+}  // namespace tessera
