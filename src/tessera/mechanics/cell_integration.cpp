@@ -22,7 +22,7 @@ class CellIntegration : public StressIntegration {
   /// Stresses of all cells, and their part in those of the rims.
   StressSums gather(const StressTask& task) override {
     return sum_tiles(s_, scratches_, [&](Index tile, TileScratch& scratch) {
-      const double contact = add_bonds(s_, tile, task, scratch);
+      const double contact = add_tile_bonds(s_, tile, task, scratch);
       if (task.bonds.f == nullptr) load_tile(s_, tile, task.x, task.F, scratch);
       StressSums sums = cell_stress_sweep(
           s_, tile, task.F, task.history, task.viscous, task.dt, scratch,
@@ -37,7 +37,7 @@ class CellIntegration : public StressIntegration {
     recall(tile, scratch);
     add_known_viscous_stress(s_, tile, task, scratch);
     StressSums sums;
-    sums.contact = add_boundary_bonds(s_, tile, task, scratch);
+    sums.contact = add_tile_boundary_bonds(s_, tile, task, scratch);
     return sums;
   }
 
@@ -75,10 +75,10 @@ class AveragedCellIntegration : public StressIntegration {
   StressSums gather(const StressTask& task) override { return averaged_.evaluate(task.F, task.history, task.report); }
 
   StressSums stresses(const StressTask& task, Index tile, TileScratch& scratch) override {
-    const double contact = add_bonds(s_, tile, task, scratch);
+    const double contact = add_tile_bonds(s_, tile, task, scratch);
     StressSums sums = known_stress_sweep(s_, tile, task.F, averaged_.T(), task.viscous, task.dt, scratch);
     add_known_viscous_stress(s_, tile, task, scratch);
-    sums.contact = contact + add_boundary_bonds(s_, tile, task, scratch);
+    sums.contact = contact + add_tile_boundary_bonds(s_, tile, task, scratch);
     return sums;
   }
 

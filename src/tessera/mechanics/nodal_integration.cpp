@@ -22,11 +22,11 @@ class NodalIntegration : public StressIntegration {
   std::unique_ptr<StressIntegration> apart() const override { return nodal_integration(s_, scratches_); }
 
   StressSums stresses(const StressTask& task, Index tile, TileScratch& scratch) override {
-    const double contact = add_bonds(s_, tile, task, scratch);
+    const double contact = add_tile_bonds(s_, tile, task, scratch);
     StressSums sums = elastic_stresses(task, tile, scratch);
     report_stress(s_, tile, task.report, scratch);
     add_known_viscous_stress(s_, tile, task, scratch);
-    sums.contact = contact + add_boundary_bonds(s_, tile, task, scratch);
+    sums.contact = contact + add_tile_boundary_bonds(s_, tile, task, scratch);
     return sums;
   }
 

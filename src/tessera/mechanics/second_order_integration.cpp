@@ -61,11 +61,11 @@ class SecondOrderIntegration : public StressIntegration {
  private:
   StressSums gather_tile(const StressTask& task, Index tile, TileScratch& scratch) {
     const Tile& t = tile_of(s_, tile);
-    const double contact = add_bonds(s_, tile, task, scratch);
+    const double contact = add_tile_bonds(s_, tile, task, scratch);
     StressSums sums = elastic_stresses(task, tile, scratch);
     take_moments(*s_.second_order, t.begin, t.end, curved_);
     add_known_viscous_stress(s_, tile, task, scratch);
-    sums.contact = contact + add_boundary_bonds(s_, tile, task, scratch);
+    sums.contact = contact + add_tile_boundary_bonds(s_, tile, task, scratch);
     for (Index a = t.begin; a < t.end; ++a)
       curved_.T[static_cast<std::size_t>(a)] = to_tensor(scratch.T[static_cast<std::size_t>(a - t.begin)]);
     return sums;

@@ -13,13 +13,13 @@ std::unique_ptr<StressIntegration> make_integration(const System& s, StressInteg
   return nodal_integration(s, scratches);
 }
 
-double add_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch) {
+double add_tile_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch) {
   if (task.bonds.f != nullptr) return contact_sweep(s, tile, task.x, task.F, task.bonds.f, scratch);
   std::fill(scratch.T.begin(), scratch.T.end(), Columns{});
   return 0.0;
 }
 
-double add_boundary_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch) {
+double add_tile_boundary_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch) {
   double energy = 0.0;
   if (task.bonds.R == nullptr) return energy;
   for_each_owner(s, tile, [&](Index k, Index a) {

@@ -80,9 +80,9 @@ StressSums sum_tiles(const System& s, StressIntegration::Scratches& scratches, B
 
 /// Bonds between particles: copies the values of a tile and its rim, adds forces, sets T to the contact stress,
 /// [D 57, 58]. Returns their energy [J]. Where bonds are left out, T is zero and nothing else done.
-double add_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch);
+double add_tile_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch);
 /// The same at the boundary nodes of the tile's particles, when T has its other parts.
-double add_boundary_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch);
+double add_tile_boundary_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch);
 /// Adds the viscous stress that is known already to the stress of the tile's own particles and to its report.
 void add_known_viscous_stress(const System& s, Index tile, const StressTask& task, TileScratch& scratch);
 
