@@ -13,11 +13,18 @@ concept HasHistory = requires(const Law& law, const Mat3& F, const PlasticState&
   law.response(F, before);
 };
 
-/// Law::response() of four deformations, one after the other: for laws that have no form for four at once.
+/// A law with a form for several deformations at once.
 template <class Law>
-inline LanesResponse one_by_one(const Law& law, const Lanes9& F, const LanesHistory& history) {
-  LanesResponse all{};
-  for (int k = 0; k < 4; ++k) {
+concept InLanes = requires(const Law& law, const Lanes9& F) {
+  response(law, F);
+};
+
+/// Law::response() of several deformations, one after the other: for laws that have no form for several at once.
+template <class Law, class Lanes>
+inline LanesResponseOf<Lanes> one_by_one(const Law& law, const Lanes9Of<Lanes>& F,
+                                         const LanesHistoryOf<Lanes>& history) {
+  LanesResponseOf<Lanes> all{};
+  for (int k = 0; k < lanes_in<Lanes>; ++k) {
     const Mat3 F_k = tensor_of(F, k);
     const auto i = static_cast<std::size_t>(k);
     all.J[k] = determinant(F_k);
@@ -36,10 +43,10 @@ inline LanesResponse one_by_one(const Law& law, const Lanes9& F, const LanesHist
   return all;
 }
 
-/// Any law's answer to four deformations at once. Where J is not positive energy and stress have no meaning.
-template <class Law>
-inline LanesResponse response(const Law& law, const Lanes9& F, const LanesHistory& history) {
-  if constexpr (requires { response(law, F); })
+/// Any law's answer to several deformations at once. Where J is not positive energy and stress have no meaning.
+template <class Law, class Lanes>
+inline LanesResponseOf<Lanes> response(const Law& law, const Lanes9Of<Lanes>& F, const LanesHistoryOf<Lanes>& history) {
+  if constexpr (InLanes<Law>)
     return response(law, F);
   else
     return one_by_one(law, F, history);

@@ -5,22 +5,23 @@
 
 namespace tessera {
 
-/// SaintVenantKirchhoff::response() of four deformations.
-inline LanesResponse response(const SaintVenantKirchhoff& law, const Lanes9& F) {
-  const Lanes9 cof = cofactor(F);
-  const auto product = [&](const Double4& ax, const Double4& bx, const Double4& ay, const Double4& by,
-                           const Double4& az, const Double4& bz) { return ax * bx + ay * by + az * bz; };
-  const Double4 E_xx = 0.5 * (product(F.xx, F.xx, F.yx, F.yx, F.zx, F.zx) - 1.0),
-                E_yy = 0.5 * (product(F.xy, F.xy, F.yy, F.yy, F.zy, F.zy) - 1.0),
-                E_zz = 0.5 * (product(F.xz, F.xz, F.yz, F.yz, F.zz, F.zz) - 1.0),
-                E_yz = 0.5 * product(F.xy, F.xz, F.yy, F.yz, F.zy, F.zz),
-                E_zx = 0.5 * product(F.xz, F.xx, F.yz, F.yx, F.zz, F.zx),
-                E_xy = 0.5 * product(F.xx, F.xy, F.yx, F.yy, F.zx, F.zy);
-  const Double4 tr = E_xx + E_yy + E_zz, pressure = law.lambda * tr;
+/// SaintVenantKirchhoff::response() of several deformations.
+template <class Lanes>
+inline LanesResponseOf<Lanes> response(const SaintVenantKirchhoff& law, const Lanes9Of<Lanes>& F) {
+  const Lanes9Of<Lanes> cof = cofactor(F);
+  const auto product = [&](const Lanes& ax, const Lanes& bx, const Lanes& ay, const Lanes& by, const Lanes& az,
+                           const Lanes& bz) { return ax * bx + ay * by + az * bz; };
+  const Lanes E_xx = 0.5 * (product(F.xx, F.xx, F.yx, F.yx, F.zx, F.zx) - 1.0),
+              E_yy = 0.5 * (product(F.xy, F.xy, F.yy, F.yy, F.zy, F.zy) - 1.0),
+              E_zz = 0.5 * (product(F.xz, F.xz, F.yz, F.yz, F.zz, F.zz) - 1.0),
+              E_yz = 0.5 * product(F.xy, F.xz, F.yy, F.yz, F.zy, F.zz),
+              E_zx = 0.5 * product(F.xz, F.xx, F.yz, F.yx, F.zz, F.zx),
+              E_xy = 0.5 * product(F.xx, F.xy, F.yx, F.yy, F.zx, F.zy);
+  const Lanes tr = E_xx + E_yy + E_zz, pressure = law.lambda * tr;
   const double twice = 2.0 * law.mu;
-  const Double4 S_xx = pressure + twice * E_xx, S_yy = pressure + twice * E_yy, S_zz = pressure + twice * E_zz,
-                S_yz = twice * E_yz, S_zx = twice * E_zx, S_xy = twice * E_xy;
-  const Double4 shear = E_yz * E_yz + E_zx * E_zx + E_xy * E_xy;
+  const Lanes S_xx = pressure + twice * E_xx, S_yy = pressure + twice * E_yy, S_zz = pressure + twice * E_zz,
+              S_yz = twice * E_yz, S_zx = twice * E_zx, S_xy = twice * E_xy;
+  const Lanes shear = E_yz * E_yz + E_zx * E_zx + E_xy * E_xy;
   return {0.5 * pressure * tr + law.mu * (E_xx * E_xx + E_yy * E_yy + E_zz * E_zz + 2.0 * shear),
           {product(F.xx, S_xx, F.xy, S_xy, F.xz, S_zx), product(F.xx, S_xy, F.xy, S_yy, F.xz, S_yz),
            product(F.xx, S_zx, F.xy, S_yz, F.xz, S_zz), product(F.yx, S_xx, F.yy, S_xy, F.yz, S_zx),

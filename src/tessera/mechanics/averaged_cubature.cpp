@@ -45,7 +45,7 @@ struct FourCells {
 
 /// What the points say about four cells, per volume: the stresses of a fixed Jbar.
 struct IsochoricStress {
-  CubatureStress sums;
+  CubatureStress<Double4> sums;
   Double4 p{};  // mean over the points of P(Fbar) : Fbar / (3 Jbar) [Pa]
 };
 

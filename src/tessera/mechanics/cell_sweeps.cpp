@@ -1,82 +1,23 @@
-#include "tessera/mechanics/cell_sweeps.hpp"
-
-#include <cmath>
-
-#include "tessera/mechanics/cubature.hpp"
-#include "tessera/mechanics/tile_nodes.hpp"
+#include "tessera/mechanics/cell_kernel.hpp"
 
 namespace tessera {
 
 namespace {
 
-/// Sums over the neighbours of four particles.
-struct GradientSums {
-  Lanes9 G[3];      // (1/2) sum (F_b - F_a) C_ab,k / r^2, k = 1 to 3
-  Lanes3 arrivals;  // sum C_ab / r^2
-};
-
 inline Lanes3 load_centroids(const Double4* C, const std::uint16_t* local) {
   return transposed(C[local[0]], C[local[1]], C[local[2]], C[local[3]]);
 }
 
-/// F/2 of four nodes.
-inline Lanes9 load_half_F(const TileNode* nodes, const std::uint16_t* local) {
-  const double *n0 = nodes[local[0]].value, *n1 = nodes[local[1]].value, *n2 = nodes[local[2]].value,
-               *n3 = nodes[local[3]].value;
-  const auto pairs = [&](Index k) { return load_pairs(n0 + k, n1 + k, n2 + k, n3 + k); };
-  const TwoLanes p0 = pairs(0), p2 = pairs(2), p4 = pairs(4), p6 = pairs(6), p8 = pairs(8);
-  return {p0.first, p2.second, p6.first, p0.second, p4.first, p6.second, p2.first, p4.second, p8.first};
-}
-
-/// Adds a neighbour of each of four particles and returns C_ab / r^2, zero where there is no common face.
-inline Lanes3 add_neighbour(const Lanes9& F_a, const Lanes9& F_b, const Lanes3& C_ab, const Double4& area_over_length,
-                            GradientSums& sums) {
-  const Double4 square = C_ab.x * C_ab.x + C_ab.y * C_ab.y + C_ab.z * C_ab.z;
-  const Double4 zero{};
-  const Lanes3 w = (area_over_length > zero ? 1.0 / square : zero) * C_ab;
-  Lanes9 difference = F_b;
-  add(difference, zero - 1.0, F_a);
-  add(sums.G[0], w.x, difference);
-  add(sums.G[1], w.y, difference);
-  add(sums.G[2], w.z, difference);
-  sums.arrivals = sums.arrivals + w;
-  return w;
-}
-
-/// A_a of four particles.
-struct FourMatrices {
-  Double4 m[3][3];
-};
-
-inline FourMatrices load_matrices(const Mat3* A, const std::uint16_t* local) {
-  FourMatrices four;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      four.m[i][j] = Double4{A[local[0]](i, j), A[local[1]](i, j), A[local[2]](i, j), A[local[3]](i, j)};
-  return four;
-}
-
-/// The rows of four particles of a tile.
-struct Quad {
-  const std::uint16_t* order;  // local numbers
-  Index length;
-  Index lanes;  // that count
-};
-
-/// Writes the three tensors of four cells, times their volumes.
-inline void keep(const Quad& rows, const Double4& volume, const Lanes9 (&t)[3], ThreeTensors* to) {
-  for (int k = 0; k < 3; ++k) {
-    Lanes9 scaled;
-    add(scaled, volume, t[k]);
-    const FourColumns four = columns_of(scaled);
-    for (Index lane = 0; lane < rows.lanes; ++lane) to[rows.order[lane]].k[k] = four.t[lane];
-  }
-}
-
+/// Copies the centroids of the tile and its rim, and brings the matrices of its cells near.
 inline void load_centroids_of_tile(const System& s, Index k, Double4* __restrict local) {
   const Tile& tile = tile_of(s, k);
   const Vec3* C = s.d.measure->centroid.data();
-  for (Index a = tile.begin; a < tile.end; ++a) local[a - tile.begin] = to_kernel(C[a]);
+  const Mat3* to_points = s.gradients->to_points.data();
+  for (Index a = tile.begin; a < tile.end; ++a) {
+    fetch(to_points + a);
+    fetch_ahead<1024>(C + a);
+    local[a - tile.begin] = to_kernel(C[a]);
+  }
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const Index* rim = s.tiles.rim.data() + tile.rim;
   for (Index i = 0; i < rim_size; ++i) {
@@ -85,180 +26,214 @@ inline void load_centroids_of_tile(const System& s, Index k, Double4* __restrict
   }
 }
 
-/// The variation of F in four cells by the differences to their neighbours.
-class NeighbourVariation {
- public:
-  NeighbourVariation(const System& s, Index k, TileScratch& scratch)
-      : nodes_(scratch.nodes.data()),
-        C_(scratch.centroid.data()),
-        to_points_(s.gradients->to_points.data() + tile_of(s, k).begin),
-        neighbour_(s.tiles.neighbour.data() + tile_of(s, k).slot),
-        area_over_length_(s.tiles.area_over_length.data() + tile_of(s, k).slot),
-        weights_(scratch.gradient_weights.data()),
-        moments_(scratch.moments.data()) {
-    load_centroids_of_tile(s, k, scratch.centroid.data());
+/// C_ab / r^2 of the bonds of a quad, zero where there is no common face; returns their sums.
+inline Lanes3 find_weights(const Double4* C, const std::uint16_t* order, const std::uint16_t* neighbour,
+                           const double* area_over_length, Index length, Double4* weights) {
+  const Double4 zero{};
+  const Lanes3 C_a = load_centroids(C, order);
+  Lanes3 sum;
+  for (Index i = 0; i < length; ++i, neighbour += quad, area_over_length += quad, weights += quad) {
+    const Double4 A_L{area_over_length[0], area_over_length[1], area_over_length[2], area_over_length[3]};
+    const Lanes3 C_ab = load_centroids(C, neighbour) - C_a;
+    const Double4 square = C_ab.x * C_ab.x + C_ab.y * C_ab.y + C_ab.z * C_ab.z;
+    const Lanes3 w = (A_L > zero ? 1.0 / square : zero) * C_ab;
+    const FourVectors rows = transposed(w);
+    for (Index lane = 0; lane < quad; ++lane) weights[lane] = rows.v[lane];
+    sum = sum + w;
   }
-
-  inline void find(const Quad& rows, Lanes9 (&E)[3]) {
-    const Lanes9 F_a = load_half_F(nodes_, rows.order);
-    const Lanes3 C_a = load_centroids(C_, rows.order);
-    GradientSums sums;
-    for (Index i = 0; i < rows.length; ++i, neighbour_ += quad, area_over_length_ += quad, weights_ += 3) {
-      const Double4 A_L{area_over_length_[0], area_over_length_[1], area_over_length_[2], area_over_length_[3]};
-      const Lanes3 w =
-          add_neighbour(F_a, load_half_F(nodes_, neighbour_), load_centroids(C_, neighbour_) - C_a, A_L, sums);
-      weights_[0] = w.x, weights_[1] = w.y, weights_[2] = w.z;
-    }
-    A_ = load_matrices(to_points_, rows.order);
-    arrivals_ = sums.arrivals;
-    const Double4 two = Double4{} + 2.0;
-    for (int q = 0; q < 3; ++q)
-      for (int k = 0; k < 3; ++k) add(E[q], two * A_.m[k][q], sums.G[k]);
-  }
-
-  /// Keeps V dU/dG and adds what it does to F_a itself to the stress.
-  inline void take(const Quad& rows, const Double4& volume, const Lanes9 (&moment)[3], Lanes9& stress) {
-    Lanes9 Z[3];
-    for (int k = 0; k < 3; ++k)
-      for (int q = 0; q < 3; ++q) add(Z[k], A_.m[k][q], moment[q]);
-    const Double4 zero{};
-    add(stress, zero - arrivals_.x, Z[0]);
-    add(stress, zero - arrivals_.y, Z[1]);
-    add(stress, zero - arrivals_.z, Z[2]);
-    keep(rows, volume, Z, moments_);
-  }
-
- private:
-  const TileNode* nodes_;
-  const Double4* C_;
-  const Mat3* to_points_;
-  const std::uint16_t* neighbour_;
-  decltype(Tiles::area_over_length)::const_pointer area_over_length_;
-  Double4* weights_;
-  ThreeTensors* moments_;
-  FourMatrices A_;
-  Lanes3 arrivals_;
-};
-
-/// A variation that is known.
-class KnownVariation {
- public:
-  KnownVariation(const ThreeTensors* E, ThreeTensors* Z) : E_(E), Z_(Z) {}
-
-  inline void find(const Quad& rows, Lanes9 (&E)[3]) {
-    for (int q = 0; q < 3; ++q)
-      E[q] = to_lanes(E_[rows.order[0]].k[q], E_[rows.order[1]].k[q], E_[rows.order[2]].k[q], E_[rows.order[3]].k[q]);
-  }
-  inline void take(const Quad& rows, const Double4& volume, const Lanes9 (&moment)[3], Lanes9&) {
-    keep(rows, volume, moment, Z_);
-  }
-
- private:
-  const ThreeTensors* E_;
-  ThreeTensors* Z_;
-};
-
-/// Lanes that repeat a particle keep nothing.
-inline LanesHistory history_of_point(const HistorySpan& history, Index first, const Quad& rows, int point) {
-  if (history.before == nullptr) return {};
-  std::array<Offset, 4> points{};
-  for (std::size_t lane = 0; lane < points.size(); ++lane)
-    points[lane] = static_cast<Offset>(first + rows.order[lane]) * stress_points_of_a_cell + point;
-  LanesHistory four = history.lanes(points);
-  for (Index lane = rows.lanes; lane < quad; ++lane) four.after[static_cast<std::size_t>(lane)] = nullptr;
-  return four;
+  return sum;
 }
 
-template <class Law, class Variation>
-inline StressSums cells_of(const System& s, Index k, const Law& law, const Tensor* F, Variation& variation,
-                           const HistorySpan& history, ViscousMemory* viscous, double dt, TileScratch& scratch,
-                           const CellReport& report) {
-  const Tile& tile = tile_of(s, k);
-  Columns* __restrict T = scratch.P.empty() ? scratch.T.data() : scratch.P.data();
-  const std::uint16_t* order = s.tiles.order.data() + quad * tile.quad;
-  const std::uint16_t* length = s.tiles.length.data() + tile.quad;
-  const double* volume = s.d.volume.data() + tile.begin;
-  const Tensor* F_own = F + tile.begin;
-  StressSums sums;
-  Double4 smallest_J{}, not_finite{};
-  smallest_J += std::numeric_limits<double>::infinity();
-  for (Index q = 0; q < tile.quads(); ++q, order += quad) {
-    const Quad rows{order, length[q], std::min(quad, tile.size() - quad * q)};
-    Lanes9 E[3];
-    variation.find(rows, E);
-    const CubatureStress c =
-        cubature_stress(law, to_lanes(F_own[order[0]], F_own[order[1]], F_own[order[2]], F_own[order[3]]), E,
-                        [&](int point) { return history_of_point(history, tile.begin, rows, point); });
-    smallest_J = smallest_J < c.smallest_J ? smallest_J : c.smallest_J;
-    not_finite += c.not_finite;
-    Lanes9 total = c.mean;
-    const Double4 V{volume[order[0]], volume[order[1]], volume[order[2]], volume[order[3]]};
-    variation.take(rows, V, c.moment, total);
-    const FourColumns stress = columns_of(total);
-    for (Index lane = 0; lane < rows.lanes; ++lane) {
-      const Index local = order[lane], a = tile.begin + local;
-      sums.internal += volume[local] * c.energy[lane];
-      if constexpr (HasHistory<Law>) sums.dissipated += volume[local] * c.dissipated[lane];
-      Columns P = stress.t[lane];
-      if (viscous != nullptr && dt > 0.0) sums.dissipated += add_viscous_stress(s, a, F[a], *viscous, dt, P);
-      T[local] = scratch.P.empty() ? T[local] + P : P;
-      if (report.smallest_J != nullptr) report.smallest_J[a] = c.smallest_J[lane];
-      if (report.energy != nullptr) report.energy[a] = c.energy[lane];
-    }
-    if (report.mean == nullptr) continue;
-    const FourColumns mean = columns_of(c.mean);
-    for (Index lane = 0; lane < rows.lanes; ++lane) report.mean[tile.begin + order[lane]] = to_tensor(mean.t[lane]);
+/// (1/2) sum (F_b - F_a) C_ab,k / r^2, k = 1 to 3, of a particle; bonds are in every fourth slot.
+template <class Eight>
+inline void sum_differences(const TileNode* nodes, const double* F_a, const std::uint16_t* neighbour,
+                            const Double4* weights, Index length, TensorRows& sums) {
+  const auto eight_a = load_row<Eight>(F_a);
+  Eight k_0{}, k_1{}, k_2{};
+  Double4 ninth{};
+  for (Index i = 0; i < length; ++i, neighbour += quad, weights += quad) {
+    const double* F_b = nodes[*neighbour].value;
+    const auto* w = reinterpret_cast<const double*>(weights);
+    const Eight difference = load_row<Eight>(F_b) - eight_a;
+    add_scaled(k_0, w[0], difference);
+    add_scaled(k_1, w[1], difference);
+    add_scaled(k_2, w[2], difference);
+    ninth += (F_b[8] - F_a[8]) * *weights;
   }
-  sums.smallest_J = std::min(std::min(smallest_J[0], smallest_J[1]), std::min(smallest_J[2], smallest_J[3]));
-  sums.finite = std::isfinite(sum(not_finite));
-  return sums;
+  store_row(sums.value, k_0);
+  store_row(sums.value + 8, k_1);
+  store_row(sums.value + 16, k_2);
+  store_row(sums.value + TensorRows::ninths, ninth);
 }
 
-// One clone of each law for every instruction set.
-#define TESSERA_CELL_KERNEL(Law, Variation)                                                                      \
-  TESSERA_KERNEL StressSums cell_kernel(const System& s, Index k, const Law& law, const Tensor* F,               \
-                                        Variation variation, const HistorySpan& history, ViscousMemory* viscous, \
-                                        double dt, TileScratch& scratch, const CellReport& report) {             \
-    return cells_of(s, k, law, F, variation, history, viscous, dt, scratch, report);                             \
+/// A_a of several particles.
+template <class Lanes>
+struct Matrices {
+  Matrices(const Mat3* A, const CellGroup<Lanes>& group) {
+    const double* row[lanes_in<Lanes>];
+    for (Index lane = 0; lane < lanes_in<Lanes>; ++lane) row[lane] = A[group.local[lane]].m.data();
+    const FourOf<Lanes> a = load_fours(row, 0), b = load_fours(row, 4), c = load_fours(row, 5);
+    const Lanes entries[3][3] = {{a.n0, a.n1, a.n2}, {a.n3, b.n0, b.n1}, {b.n2, b.n3, c.n3}};
+    std::copy(&entries[0][0], &entries[0][0] + 9, &m[0][0]);
   }
-#define TESSERA_CELL_KERNELS(Law)              \
-  TESSERA_CELL_KERNEL(Law, NeighbourVariation) \
-  TESSERA_CELL_KERNEL(Law, KnownVariation)
-TESSERA_CELL_KERNELS(NeoHookean)
-TESSERA_CELL_KERNELS(SaintVenantKirchhoff)
-TESSERA_CELL_KERNELS(MooneyRivlin)
-TESSERA_CELL_KERNELS(Ogden)
-TESSERA_CELL_KERNELS(J2Plasticity)
-#undef TESSERA_CELL_KERNELS
-#undef TESSERA_CELL_KERNEL
+  Lanes m[3][3];
+};
 
-/// What the moments of the tile's own stresses do to F_b: sum_a Z_a C_ab / r^2 of the bonds that lead to b, [J].
-TESSERA_KERNEL void return_moments(const System& s, Index k, const TileScratch& scratch, const CellStress& stress) {
+/// Differences of F to the neighbours.
+struct Neighbours {
+  const System& s;
+  Index tile;
+  TileScratch& scratch;
+
+  /// The variation of F in a group of cells by the differences to their neighbours. Groups come one after the other.
+  template <class Lanes>
+  class Variation {
+   public:
+    explicit Variation(const Neighbours& source)
+        : nodes_(source.scratch.nodes.data()),
+          C_(source.scratch.centroid.data()),
+          to_points_(source.s.gradients->to_points.data() + tile_of(source.s, source.tile).begin),
+          order_(source.s.tiles.order.data() + quad * tile_of(source.s, source.tile).quad),
+          length_(source.s.tiles.length.data() + tile_of(source.s, source.tile).quad),
+          neighbour_(source.s.tiles.neighbour.data() + tile_of(source.s, source.tile).slot),
+          area_over_length_(source.s.tiles.area_over_length.data() + tile_of(source.s, source.tile).slot),
+          weights_(source.scratch.gradient_weights.data()),
+          moments_(source.scratch.moments.data()),
+          quads_(tile_of(source.s, source.tile).quads()) {
+      load_centroids_of_tile(source.s, source.tile, source.scratch.centroid.data());
+    }
+
+    inline void find(const CellGroup<Lanes>& group, Lanes9Of<Lanes> (&E)[3]) {
+      TensorRows sums[lanes_in<Lanes>];
+      const double* row[lanes_in<Lanes>];
+      for (Index q = 0; q < group.quads; ++q)
+        if (group.first + q < quads_) arrivals_[q] = sum_quad(group.first + q, sums + quad * q);
+      for (Index lane = 0; lane < group.lanes; ++lane) row[lane] = sums[std::min(lane, group.count - 1)].value;
+      Lanes9Of<Lanes> G[3];
+      load_tensors<Lanes>(row, G);
+      const Matrices<Lanes> A(to_points_, group);
+      const Lanes two = Lanes{} + 2.0;
+      for (int q = 0; q < 3; ++q)
+        for (int k = 0; k < 3; ++k) add(E[q], two * A.m[k][q], G[k]);
+    }
+
+    /// Keeps V dU/dG and adds what it does to F_a itself to the stress.
+    inline void take(const CellGroup<Lanes>& group, const Lanes& volume, const Lanes9Of<Lanes> (&moment)[3],
+                     Lanes9Of<Lanes>& stress) {
+      const Matrices<Lanes> A(to_points_, group);
+      Lanes9Of<Lanes> Z[3], energy[3];
+      for (int k = 0; k < 3; ++k)
+        for (int q = 0; q < 3; ++q) add(Z[k], A.m[k][q], moment[q]);
+      const Lanes3Of<Lanes> arrivals = together();
+      add(stress, Lanes{} - arrivals.x, Z[0]);
+      add(stress, Lanes{} - arrivals.y, Z[1]);
+      add(stress, Lanes{} - arrivals.z, Z[2]);
+      for (int k = 0; k < 3; ++k) add(energy[k], volume, Z[k]);
+      double* row[lanes_in<Lanes>];
+      for (Index lane = 0; lane < group.lanes; ++lane) row[lane] = moments_[group.local[lane]].value;
+      store_tensors(energy, row);
+    }
+
+   private:
+    using Eight = typename EightOf<Lanes>::type;
+
+    inline Lanes3 sum_quad(Index q, TensorRows* sums) {
+      const std::uint16_t* order = order_ + quad * q;
+      const Index length = length_[q];
+      const Lanes3 arrivals = find_weights(C_, order, neighbour_, area_over_length_, length, weights_);
+      for (Index lane = 0; lane < quad; ++lane)
+        sum_differences<Eight>(nodes_, nodes_[order[lane]].value, neighbour_ + lane, weights_ + lane, length,
+                               sums[lane]);
+      neighbour_ += quad * length, area_over_length_ += quad * length, weights_ += quad * length;
+      return arrivals;
+    }
+
+    inline Lanes3Of<Lanes> together() const {
+      if constexpr (lanes_in<Lanes> == 4)
+        return arrivals_[0];
+      else
+        return {joined(arrivals_[0].x, arrivals_[1].x), joined(arrivals_[0].y, arrivals_[1].y),
+                joined(arrivals_[0].z, arrivals_[1].z)};
+    }
+
+    const TileNode* nodes_;
+    const Double4* C_;
+    const Mat3* to_points_;
+    const std::uint16_t *order_, *length_, *neighbour_;
+    const double* area_over_length_;
+    Double4* weights_;
+    TensorRows* moments_;
+    Index quads_;
+    Lanes3 arrivals_[CellGroup<Lanes>::quads];
+  };
+};
+
+TESSERA_CELL_KERNELS(Neighbours)
+
+/// The sums of a receiver of moments.
+template <class Eight>
+struct ReceivedRows {
+  Eight k_0{}, k_1{}, k_2{};
+  Double4 ninth{};
+
+  Eight eight() const { return k_0 + k_1 + k_2; }
+  double last() const { return ninth[0] + ninth[1] + ninth[2]; }
+};
+
+template <class Eight>
+inline void return_moments(const System& s, Index k, const TileScratch& scratch, const CellStress& stress) {
   const Tile& tile = tile_of(s, k);
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const std::uint16_t* count = s.tiles.incoming_count.data() + tile.node;
   const Tiles::Incoming* incoming = s.tiles.incoming.data() + tile.incoming;
-  const ThreeTensors* moments = scratch.moments.data();
-  const double* weights = reinterpret_cast<const double*>(scratch.gradient_weights.data());
-  const auto received = [&](Index bonds) {
-    Columns sum[3]{};
+  const TensorRows* moments = scratch.moments.data();
+  const Double4* weights = scratch.gradient_weights.data();
+  const auto receive = [&](Index bonds) {
+    fetch_ahead<1024>(incoming);
+    ReceivedRows<Eight> received;
     for (const Tiles::Incoming* end = incoming + bonds; incoming != end; ++incoming) {
-      const Columns* Z = moments[incoming->from].k;
-      const double* w = weights + 12 * (incoming->slot / 4) + incoming->slot % 4;
-      for (int i = 0; i < 3; ++i) {
-        sum[i].c0 += Z[i].c0 * w[4 * i];
-        sum[i].c1 += Z[i].c1 * w[4 * i];
-        sum[i].c2 += Z[i].c2 * w[4 * i];
-      }
+      const double* Z = moments[incoming->from].value;
+      const Double4& weight = weights[incoming->slot];
+      const auto* w = reinterpret_cast<const double*>(&weight);
+      add_scaled(received.k_0, w[0], load_row<Eight>(Z));
+      add_scaled(received.k_1, w[1], load_row<Eight>(Z + 8));
+      add_scaled(received.k_2, w[2], load_row<Eight>(Z + 16));
+      received.ninth += weight * load_row<Double4>(Z + TensorRows::ninths);
     }
-    return sum[0] + sum[1] + sum[2];
+    return received;
   };
   const double* volume = s.d.volume.data() + tile.begin;
   const Columns* T = scratch.P.empty() ? scratch.T.data() : scratch.P.data();
   Tensor* __restrict to = stress.own + tile.begin, * __restrict rim = stress.rim + tile.rim;
-  for (Index a = 0; a < own; ++a) store(to[a], T[a] + (1.0 / volume[a]) * received(count[a]));
-  for (Index i = 0; i < rim_size; ++i) store(rim[i], received(count[own + i]));
+  for (Index a = 0; a < own; ++a) {
+    const ReceivedRows<Eight> sum = receive(count[a]);
+    const double share = 1.0 / volume[a];
+    auto eight = eight_of<Eight>(T[a].c0, T[a].c1, T[a].c2);
+    add_scaled(eight, share, sum.eight());
+    fetch_to_write<512>(to + a);
+    store_row(to[a].m, eight);
+    to[a].m[8] = T[a].c2[2] + share * sum.last();
+  }
+  for (Index i = 0; i < rim_size; ++i) {
+    const ReceivedRows<Eight> sum = receive(count[own + i]);
+    fetch_to_write<512>(rim + i);
+    store_row(rim[i].m, sum.eight());
+    rim[i].m[8] = sum.last();
+  }
 }
+
+/// What the moments of the tile's own stresses do to F_b: sum_a Z_a C_ab / r^2 of the bonds that lead to b, [J].
+TESSERA_KERNEL void return_moments_of_four(const System& s, Index k, const TileScratch& scratch,
+                                           const CellStress& stress) {
+  return_moments<TwoFours>(s, k, scratch, stress);
+}
+
+#ifdef TESSERA_WIDE_KERNEL
+TESSERA_WIDE_KERNEL void return_moments_of_eight(const System& s, Index k, const TileScratch& scratch,
+                                                 const CellStress& stress) {
+  return_moments<Double8>(s, k, scratch, stress);
+}
+#endif
 
 /// The gradient vectors of a tile, fetched a few lines with each of its particles.
 class LinesOfTile {
@@ -280,29 +255,37 @@ class LinesOfTile {
   Offset lines_;  // for each particle
 };
 
+void return_moments(const CellTask& task, const CellStress& stress, [[maybe_unused]] Registers registers) {
+#ifdef TESSERA_WIDE_KERNEL
+  if (registers == Registers::eight_numbers) {
+    return_moments_of_eight(task.s, task.tile, task.scratch, stress);
+    return;
+  }
+#endif
+  return_moments_of_four(task.s, task.tile, task.scratch, stress);
+}
+
+StressSums run(const CellTask& task, const CellStress& stress, [[maybe_unused]] Registers registers) {
+  const Material& m = task.s.materials[static_cast<std::size_t>(tile_of(task.s, task.tile).material)];
+  const Neighbours source{task.s, task.tile, task.scratch};
+  const StressSums sums = visit_law(m.law, task.history.flow,
+                                    [&](const auto& law) { TESSERA_RUN_CELL_KERNEL(task, law, source, registers); });
+  return_moments(task, stress, registers);
+  return sums;
+}
+
 }  // namespace
 
 StressSums cell_stress_sweep(const System& s, Index k, const Tensor* F, const HistorySpan& history,
                              ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
                              const CellReport& report) {
-  const Material& m = s.materials[static_cast<std::size_t>(tile_of(s, k).material)];
-  const NeighbourVariation variation(s, k, scratch);
-  const StressSums sums = visit_law(m.law, history.flow, [&](const auto& law) {
-    return cell_kernel(s, k, law, F, variation, history, viscous, dt, scratch, report);
-  });
-  return_moments(s, k, scratch, stress);
-  return sums;
+  return run({s, k, F, history, viscous, dt, scratch, report}, stress, widest_registers());
 }
 
-StressSums varied_stress_sweep(const System& s, Index k, const Tensor* F, const ThreeTensors* E,
-                               const HistorySpan& history, ViscousMemory* viscous, double dt, TileScratch& scratch,
-                               ThreeTensors* Z, const CellReport& report) {
-  const Tile& tile = tile_of(s, k);
-  const Material& m = s.materials[static_cast<std::size_t>(tile.material)];
-  const KnownVariation variation(E + tile.begin, Z + tile.begin);
-  return visit_law(m.law, history.flow, [&](const auto& law) {
-    return cell_kernel(s, k, law, F, variation, history, viscous, dt, scratch, report);
-  });
+StressSums cell_stress_sweep_of_four(const System& s, Index k, const Tensor* F, const HistorySpan& history,
+                                     ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
+                                     const CellReport& report) {
+  return run({s, k, F, history, viscous, dt, scratch, report}, stress, Registers::four_numbers);
 }
 
 void load_tile(const System& s, Index k, const Double4* x, const Tensor* F, TileScratch& scratch) {

@@ -34,6 +34,11 @@ StressSums cell_stress_sweep(const System& s, Index tile, const Tensor* F, const
                              ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
                              const CellReport& report);
 
+/// The same on four cells at once, whatever the processor. Its stresses have the same bits.
+StressSums cell_stress_sweep_of_four(const System& s, Index tile, const Tensor* F, const HistorySpan& history,
+                                     ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
+                                     const CellReport& report);
+
 /// The same where the variation of F is known: `E` are the E_q of every particle, `Z` takes V_a dU/dE_q of the tile's
 /// own [J].
 StressSums varied_stress_sweep(const System& s, Index tile, const Tensor* F, const ThreeTensors* E,

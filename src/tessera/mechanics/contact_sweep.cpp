@@ -32,17 +32,22 @@ struct ContactTile {
   ContactStiffness stiffness{};
 };
 
+/// Forces follow in the same pass over the tiles.
+bool forces_come_next(const System& s) { return !s.second_order && (!s.gradients || s.average); }
+
 /// The bonds of a quad that come next.
 struct QuadBonds {
   QuadBonds(const System& s, const Tile& tile)
       : neighbour(s.tiles.neighbour.data() + tile.slot),
         area_over_length(s.tiles.area_over_length.data() + tile.slot),
-        B(reinterpret_cast<const char*>(s.tiles.B.data() + tile.slot)) {}
+        B(reinterpret_cast<const char*>(s.tiles.B.data() + tile.slot)),
+        B_bytes(forces_come_next(s) ? static_cast<std::ptrdiff_t>(quad * sizeof(Vec3)) : 0) {}
 
   Double4 A_L() const {
     return Double4{area_over_length[0], area_over_length[1], area_over_length[2], area_over_length[3]};
   }
-  /// The next sweep reads the gradient vectors of the tile in another order, so they are brought near.
+  /// The force sweep reads the gradient vectors of the tile in another order, so they are brought near, unless it
+  /// comes in another pass.
   void fetch() const {
     fetch_ahead<0>(B);
     fetch_ahead<64>(B);
@@ -52,12 +57,13 @@ struct QuadBonds {
   void advance(Index bonds) {
     neighbour += quad * bonds;
     area_over_length += quad * bonds;
-    B += static_cast<std::size_t>(quad * bonds) * sizeof(Vec3);
+    B += B_bytes * bonds;
   }
 
   const std::uint16_t* neighbour;
   const double* area_over_length;
   const char* B;
+  std::ptrdiff_t B_bytes;  // of a bond of each particle
 };
 
 /// Writes the sums of quad q.
@@ -97,12 +103,6 @@ TESSERA_KERNEL double contact_sweep_of_four(const System& s, Index k, const Doub
 #ifdef TESSERA_WIDE_KERNEL
 
 namespace {
-
-inline Double8 joined(const Double4& first, const Double4& second) {
-  return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-inline Double4 first_half(const Double8& l) { return __builtin_shufflevector(l, l, 0, 1, 2, 3); }
-inline Double4 second_half(const Double8& l) { return __builtin_shufflevector(l, l, 4, 5, 6, 7); }
 
 template <class Half>
 inline BondSums<Double4> half_of(const BondSums<Double8>& sums, const Half& half) {

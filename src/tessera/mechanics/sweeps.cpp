@@ -27,7 +27,7 @@ TileScratch::TileScratch(const System& s)
   Offset most_slots = 0;
   for (Index k = 0; k < s.tiles.size(); ++k)
     most_slots = std::max(most_slots, s.tiles.end_of(k).slot - tile_of(s, k).slot);
-  gradient_weights.resize(static_cast<std::size_t>(3 * most_slots / 4));
+  gradient_weights.resize(static_cast<std::size_t>(most_slots));
 }
 
 TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Tensor* F, TileScratch& scratch) {

@@ -6,6 +6,7 @@
 #include "tessera/laws/lanes_response.hpp"
 #include "tessera/mechanics/kernel_types.hpp"
 #include "tessera/mechanics/system.hpp"
+#include "tessera/mechanics/tensor_rows.hpp"
 
 namespace tessera {
 
@@ -63,8 +64,8 @@ struct TileScratch {
 
   // Of cell integration, else empty.
   Field<Double4> centroid;
-  Field<ThreeTensors> moments;      // derivatives of the energies of the tile's own cells with respect to G_a [J m]
-  Field<Double4> gradient_weights;  // C_ab / r^2 of four slots: x, y, z [1/m]
+  Field<TensorRows> moments;        // derivatives of the energies of the tile's own cells with respect to G_a [J m]
+  Field<Double4> gradient_weights;  // C_ab / r^2 of each slot [1/m]
 };
 
 /// Sweep 1: F_a = (1/V_a) sum_b x_ab (x) B_ab, [D 32], [V 6], boundary nodes left out.

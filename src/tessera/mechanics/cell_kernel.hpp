@@ -1,0 +1,202 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tessera/mechanics/cell_sweeps.hpp"
+#include "tessera/mechanics/cubature.hpp"
+#include "tessera/mechanics/tensor_rows.hpp"
+#include "tessera/mechanics/tile_nodes.hpp"
+
+// Stresses at the points of the cells of a tile, four cells at once, or eight where registers have 512 bits. How F
+// varies in the cells is told by a Source, whose Variation<Lanes> has
+//
+//     find(group, E)                           the E_q of a group of cells,
+//     take(group, volume, moment, stress)      what becomes of the derivatives by E_q; adds to the cells' own stress.
+
+namespace tessera {
+
+/// Consecutive quads of a tile whose cells are taken at once. The last particle fills up what is left.
+template <class Lanes>
+struct CellGroup {
+  static constexpr Index lanes = lanes_in<Lanes>, quads = lanes / quad;
+
+  CellGroup(const System& s, const Tile& tile, Index first_quad)
+      : local{}, first(first_quad), count(std::min(lanes, tile.size() - quad * first_quad)) {
+    const std::uint16_t* order = s.tiles.order.data() + quad * (tile.quad + first_quad);
+    for (Index lane = 0; lane < lanes; ++lane) local[lane] = order[std::min(lane, count - 1)];
+  }
+
+  /// One number of each cell.
+  Lanes operator()(const double* values) const {
+    Lanes all{};
+    for (Index lane = 0; lane < lanes; ++lane) all[lane] = values[local[lane]];
+    return all;
+  }
+
+  std::uint16_t local[lanes];  // local numbers
+  Index first;                 // of the quads
+  Index count;                 // lanes that count
+};
+
+/// F of a group; `F` begins with the tile.
+template <class Lanes>
+inline Lanes9Of<Lanes> load_F(const Tensor* F, const CellGroup<Lanes>& group) {
+  const double* row[lanes_in<Lanes>];
+  for (Index lane = 0; lane < group.lanes; ++lane) row[lane] = F[group.local[lane]].m;
+  const FourOf<Lanes> f0 = load_fours(row, 0), f4 = load_fours(row, 4), f5 = load_fours(row, 5);
+  return {f0.n0, f0.n3, f4.n2, f0.n1, f4.n0, f4.n3, f0.n2, f4.n1, f5.n3};
+}
+
+/// Lanes that repeat a particle keep nothing.
+template <class Lanes>
+inline LanesHistoryOf<Lanes> history_of_point(const HistorySpan& history, Index first, const CellGroup<Lanes>& group,
+                                              int point) {
+  LanesHistoryOf<Lanes> all;
+  if (history.before == nullptr) return all;
+  for (Index lane = 0; lane < group.lanes; ++lane) {
+    const Offset at = static_cast<Offset>(first + group.local[lane]) * stress_points_of_a_cell + point;
+    const auto l = static_cast<std::size_t>(lane);
+    all.before[l] = history.before + at;
+    if (history.after != nullptr && lane < group.count) all.after[l] = history.after + at;
+  }
+  return all;
+}
+
+/// Several tensors column by column.
+template <class Lanes>
+struct ColumnsOf {
+  explicit ColumnsOf(const Lanes9Of<Lanes>& l) {
+    if constexpr (lanes_in<Lanes> == 4) {
+      const FourColumns four = columns_of(l);
+      std::copy(four.t, four.t + 4, t);
+    } else {
+      const FourColumns first = columns_of(half(l, first_half)), second = columns_of(half(l, second_half));
+      std::copy(first.t, first.t + 4, t);
+      std::copy(second.t, second.t + 4, t + 4);
+    }
+  }
+  template <class Half>
+  static Lanes9 half(const Lanes9Of<Lanes>& l, const Half& h) {
+    return {h(l.xx), h(l.xy), h(l.xz), h(l.yx), h(l.yy), h(l.yz), h(l.zx), h(l.zy), h(l.zz)};
+  }
+  Columns t[lanes_in<Lanes>];
+};
+
+/// What is done with the stresses of a tile beside adding them up.
+struct CellTask {
+  const System& s;
+  Index tile;
+  const Tensor* F;
+  const HistorySpan& history;
+  ViscousMemory* viscous;
+  double dt;
+  TileScratch& scratch;
+  const CellReport& report;
+};
+
+/// Adds the elastic and viscous stress of a group's cells to the scratch, and what they report.
+template <class Law, class Lanes>
+inline void keep_stress(const CellTask& task, const CellGroup<Lanes>& group, const CubatureStress<Lanes>& c,
+                        const Lanes9Of<Lanes>& total, StressSums& sums) {
+  const System& s = task.s;
+  const Index begin = tile_of(s, task.tile).begin;
+  const bool apart = !task.scratch.P.empty();
+  Columns* __restrict T = apart ? task.scratch.P.data() : task.scratch.T.data();
+  const ColumnsOf<Lanes> stress(total);
+  for (Index lane = 0; lane < group.count; ++lane) {
+    const Index local = group.local[lane], a = begin + local;
+    const double volume = s.d.volume[static_cast<std::size_t>(a)];
+    sums.internal += volume * c.energy[lane];
+    if constexpr (HasHistory<Law>) sums.dissipated += volume * c.dissipated[lane];
+    Columns P = stress.t[lane];
+    if (task.viscous != nullptr && task.dt > 0.0)
+      sums.dissipated += add_viscous_stress(s, a, task.F[a], *task.viscous, task.dt, P);
+    T[local] = apart ? P : T[local] + P;
+    if (task.report.smallest_J != nullptr) task.report.smallest_J[a] = c.smallest_J[lane];
+    if (task.report.energy != nullptr) task.report.energy[a] = c.energy[lane];
+  }
+  if (task.report.mean == nullptr) return;
+  const ColumnsOf<Lanes> mean(c.mean);
+  for (Index lane = 0; lane < group.count; ++lane)
+    task.report.mean[begin + group.local[lane]] = to_tensor(mean.t[lane]);
+}
+
+template <class Lanes, class Law, class Source>
+inline StressSums cells_of(const CellTask& task, const Law& law, const Source& source) {
+  const Tile& tile = tile_of(task.s, task.tile);
+  const double* volume = task.s.d.volume.data() + tile.begin;
+  typename Source::template Variation<Lanes> variation(source);
+  StressSums sums;
+  Lanes smallest_J{}, not_finite{};
+  smallest_J += std::numeric_limits<double>::infinity();
+  for (Index q = 0; q < tile.quads(); q += CellGroup<Lanes>::quads) {
+    const CellGroup<Lanes> group(task.s, tile, q);
+    Lanes9Of<Lanes> E[3];
+    variation.find(group, E);
+    const Lanes9Of<Lanes> F = load_F(task.F + tile.begin, group);
+    const CubatureStress<Lanes> c =
+        cubature_stress(law, F, E, [&](int point) { return history_of_point(task.history, tile.begin, group, point); });
+    smallest_J = smallest_J < c.smallest_J ? smallest_J : c.smallest_J;
+    not_finite += c.not_finite;
+    Lanes9Of<Lanes> total = c.mean;
+    variation.take(group, group(volume), c.moment, total);
+    keep_stress<Law>(task, group, c, total, sums);
+  }
+  double no_number = 0.0;
+  for (Index lane = 0; lane < lanes_in<Lanes>; ++lane) {
+    sums.smallest_J = std::min(sums.smallest_J, smallest_J[lane]);
+    no_number += not_finite[lane];
+  }
+  sums.finite = std::isfinite(no_number);
+  return sums;
+}
+
+// One clone of each law for every instruction set, and for laws that answer in lanes one with registers of 512 bits.
+#ifdef TESSERA_WIDE_KERNEL
+#define TESSERA_WIDE_CELL_KERNEL(Law, Source)                                                                 \
+  TESSERA_WIDE_KERNEL StressSums cells_of_eight(const CellTask& task, const Law& law, const Source& source) { \
+    return cells_of<Double8>(task, law, source);                                                              \
+  }
+#else
+#define TESSERA_WIDE_CELL_KERNEL(Law, Source)
+#endif
+#define TESSERA_CELL_KERNEL(Law, Source)                                                                \
+  TESSERA_KERNEL StressSums cells_of_four(const CellTask& task, const Law& law, const Source& source) { \
+    return cells_of<Double4>(task, law, source);                                                        \
+  }
+#define TESSERA_CELL_KERNELS(Source)                     \
+  TESSERA_CELL_KERNEL(NeoHookean, Source)                \
+  TESSERA_CELL_KERNEL(SaintVenantKirchhoff, Source)      \
+  TESSERA_CELL_KERNEL(MooneyRivlin, Source)              \
+  TESSERA_CELL_KERNEL(Ogden, Source)                     \
+  TESSERA_CELL_KERNEL(J2Plasticity, Source)              \
+  TESSERA_WIDE_CELL_KERNEL(NeoHookean, Source)           \
+  TESSERA_WIDE_CELL_KERNEL(SaintVenantKirchhoff, Source) \
+  TESSERA_WIDE_CELL_KERNEL(MooneyRivlin, Source)
+
+/// What the processor's widest registers hold.
+enum class Registers { four_numbers, eight_numbers };
+
+/// Found out once.
+inline Registers widest_registers() {
+#ifdef TESSERA_WIDE_KERNEL
+  static const Registers widest = has_wide_registers() ? Registers::eight_numbers : Registers::four_numbers;
+  return widest;
+#else
+  return Registers::four_numbers;
+#endif
+}
+
+// Returns what the kernel for this law and these registers says.
+#ifdef TESSERA_WIDE_KERNEL
+#define TESSERA_RUN_CELL_KERNEL(task, law, source, registers)                              \
+  if constexpr (InLanes<std::decay_t<decltype(law)>>)                                      \
+    if ((registers) == Registers::eight_numbers) return cells_of_eight(task, law, source); \
+  return cells_of_four(task, law, source)
+#else
+#define TESSERA_RUN_CELL_KERNEL(task, law, source, registers) return cells_of_four(task, law, source)
+#endif
+
+}  // namespace tessera
