@@ -65,10 +65,10 @@ Csr<BondEntry> rows_of(Discretization& d, const TetrahedralMesh& mesh) {
 }
 
 void build_bonds(Discretization& d, const TetrahedralMesh& mesh) {
-  for (const auto& t : mesh.tetrahedra) {
-    const std::array<Vec3, 4> x = corners(mesh, t);
-    d.body_volume += volume_of(x, volume_gradients(x));
-  }
+  d.body_volume = parallel::sum<double>(static_cast<std::int64_t>(mesh.tetrahedra.size()), [&](std::int64_t i) {
+    const std::array<Vec3, 4> x = corners(mesh, mesh.tetrahedra[static_cast<std::size_t>(i)]);
+    return volume_of(x, volume_gradients(x));
+  });
   Csr<BondEntry> rows = rows_of(d, mesh);
   Bonds& bonds = d.bonds;
   bonds.offset = std::move(rows.offset);

@@ -11,28 +11,35 @@ namespace tessera {
 /// The entries of one row while it is put together; the same column may be added several times.
 class RowBuffer {
  public:
-  void clear() { entries_.clear(); }
-  void add(Index column, const Vec3& B) { entries_.push_back({column, B}); }
+  void clear() {
+    columns_.clear();
+    entries_.clear();
+  }
 
-  /// Sums equal columns (in the order in which they were added) and hands out ascending columns.
+  /// Sums equal columns in the order in which they are added. Rows are so short that a search takes no time.
+  void add(Index column, const Vec3& B) {
+    const auto at = static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), column) - columns_.begin());
+    if (at == columns_.size()) {
+      columns_.push_back(column);
+      entries_.push_back({column, {}});
+    }
+    entries_[at].sum += B;
+  }
+
+  /// Hands out ascending columns.
   template <class Take>
   void drain(Take&& take) {
-    std::stable_sort(entries_.begin(), entries_.end(),
-                     [](const Entry& l, const Entry& r) { return l.column < r.column; });
-    for (std::size_t i = 0; i < entries_.size();) {
-      const Index column = entries_[i].column;
-      Vec3 sum;
-      for (; i < entries_.size() && entries_[i].column == column; ++i) sum += entries_[i].B;
-      take(column, sum);
-    }
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& l, const Entry& r) { return l.column < r.column; });
+    for (const Entry& e : entries_) take(e.column, e.sum);
     clear();
   }
 
  private:
   struct Entry {
     Index column;
-    Vec3 B;
+    Vec3 sum;
   };
+  std::vector<Index> columns_;  // in the order of the entries
   std::vector<Entry> entries_;
 };
 

@@ -9,7 +9,8 @@
 
 namespace tessera {
 
-/// The faces that only one tetrahedron uses, counter-clockwise seen from outside, sorted.
+/// The faces that only one tetrahedron uses, counter-clockwise seen from outside, sorted. The tetrahedra are in the
+/// order of put_in_order().
 std::vector<Triangle> outer_faces(std::span<const Tetrahedron> tetrahedra);
 
 /// The side of `solid` on which `triangle` lies: its plane holds the three vertices to within `tolerance` [m] and has

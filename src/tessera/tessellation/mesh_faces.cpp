@@ -1,8 +1,10 @@
 #include "tessera/tessellation/mesh_faces.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "tessera/base/csr.hpp"
+#include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
 namespace {
@@ -25,6 +27,14 @@ std::vector<TetrahedronFace> outward_faces(std::span<const Tetrahedron> tetrahed
     ++i;
   }
   return faces;
+}
+
+template <class T, class Before>
+void sort_rows(Csr<T>& rows, Before before) {
+  parallel::for_each(rows.rows(), [&](std::int64_t r) {
+    const std::span<T> row = rows.row(static_cast<Index>(r));
+    std::sort(row.begin(), row.end(), before);
+  });
 }
 
 bool comes_before(const TetrahedronFace& a, const TetrahedronFace& b) {
@@ -61,6 +71,18 @@ Tetrahedron canonical(Tetrahedron t) {
   return t;
 }
 
+void put_in_order(std::vector<Tetrahedron>& tetrahedra) {
+  parallel::for_each(static_cast<std::int64_t>(tetrahedra.size()), [&](std::int64_t i) {
+    Tetrahedron& t = tetrahedra[static_cast<std::size_t>(i)];
+    t = canonical(t);
+  });
+  // Buckets by smallest vertex first: a sort of a few items at a time is several times faster than one of all.
+  Csr<Tetrahedron> buckets = group_by_row(largest_vertex(tetrahedra) + 1, std::span<const Tetrahedron>(tetrahedra),
+                                          [](const Tetrahedron& t) { return t[0]; });
+  sort_rows(buckets, std::less<>());
+  tetrahedra = std::move(buckets.value);
+}
+
 Triangle canonical(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
@@ -74,14 +96,10 @@ Triangle ascending(Triangle t) {
 }
 
 std::vector<TetrahedronFace> sorted_faces(std::span<const Tetrahedron> tetrahedra) {
-  // Buckets by smallest vertex first: a sort of a few dozen faces at a time is several times faster than one of all.
   const std::vector<TetrahedronFace> faces = outward_faces(tetrahedra);
   Csr<TetrahedronFace> buckets = group_by_row(largest_vertex(tetrahedra) + 1, std::span<const TetrahedronFace>(faces),
                                               [](const TetrahedronFace& face) { return face.vertices[0]; });
-  for (Index row = 0; row < buckets.rows(); ++row) {
-    const std::span<TetrahedronFace> bucket = buckets.row(row);
-    std::sort(bucket.begin(), bucket.end(), comes_before);
-  }
+  sort_rows(buckets, comes_before);
   return std::move(buckets.value);
 }
 

@@ -19,6 +19,8 @@ Vec3 area_vector(const Triangle& t, std::span<const Vec3> points);
 
 /// The same tetrahedron with ascending vertices, but for the last two where the orientation asks for it.
 Tetrahedron canonical(Tetrahedron t);
+/// Makes all canonical and sorts them.
+void put_in_order(std::vector<Tetrahedron>& tetrahedra);
 /// The same oriented triangle with its smallest vertex first.
 Triangle canonical(Triangle t);
 /// The vertices in ascending order: equal for the two sides of one face.

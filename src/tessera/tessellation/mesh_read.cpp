@@ -35,8 +35,8 @@ TetrahedralMesh checked_mesh(const FileMesh& file) {
   refuse_bad_tetrahedra(file);
   TetrahedralMesh mesh;
   mesh.points = file.points;
-  for (const auto& element : file.tetrahedra) mesh.tetrahedra.push_back(canonical(element.vertices));
-  std::sort(mesh.tetrahedra.begin(), mesh.tetrahedra.end());
+  for (const auto& element : file.tetrahedra) mesh.tetrahedra.push_back(element.vertices);
+  put_in_order(mesh.tetrahedra);
   for (const Triangle& face : closed_boundary(file)) mesh.boundary.push_back({face, -1});
   name_sides(file, mesh);
   return mesh;

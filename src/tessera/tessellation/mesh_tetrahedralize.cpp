@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <numeric>
 
 #include "tessera/base/error.hpp"
+#include "tessera/parallel/parallel.hpp"
 #include "tessera/tessellation/delaunay_fill.hpp"
 #include "tessera/tessellation/delaunay_weights.hpp"
 #include "tessera/tessellation/lattice_split.hpp"
@@ -61,8 +61,9 @@ void refuse_left_out_points(const TetrahedralMesh& mesh, const PointSet& set) {
 }
 
 double volume_of(const TetrahedralMesh& mesh) {
-  return std::accumulate(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), 0.0,
-                         [&](double sum, const Tetrahedron& t) { return sum + six_volume(t, mesh.points) / 6.0; });
+  return parallel::sum<double>(static_cast<std::int64_t>(mesh.tetrahedra.size()), [&](std::int64_t i) {
+    return six_volume(mesh.tetrahedra[static_cast<std::size_t>(i)], mesh.points) / 6.0;
+  });
 }
 
 /// The outer faces with their sides; a face on no side shows where the solid is not filled, or overfilled.
@@ -93,8 +94,7 @@ TetrahedralMesh checked(const PointSet& set, const Solid& solid, std::vector<Tet
   TetrahedralMesh mesh;
   mesh.points = set.points;
   mesh.tetrahedra = std::move(tetrahedra);
-  for (Tetrahedron& t : mesh.tetrahedra) t = canonical(t);
-  std::sort(mesh.tetrahedra.begin(), mesh.tetrahedra.end());
+  put_in_order(mesh.tetrahedra);
   refuse_left_out_points(mesh, set);
   mesh.boundary = boundary_of(mesh, solid);
   refuse_wrong_volume(mesh, solid);

@@ -144,8 +144,8 @@ SurfaceMesh mesh_surface(const TriangleSurface& surface, const SurfaceMeshSpec& 
     throw GeometryError("the spacing is too coarse to mesh the surface at all; make particles.spacing smaller");
   sort_points(raw);
   made.mesh.points = std::move(raw.points);
-  for (const Tetrahedron& t : raw.tetrahedra) made.mesh.tetrahedra.push_back(canonical(t));
-  std::sort(made.mesh.tetrahedra.begin(), made.mesh.tetrahedra.end());
+  made.mesh.tetrahedra.assign(raw.tetrahedra.begin(), raw.tetrahedra.end());
+  put_in_order(made.mesh.tetrahedra);
   made.mesh.boundary = boundary_of(made.mesh, surface);
   for (const std::string& name : surface.side_names) made.mesh.side_names.push_back({name});
   measure(made);
