@@ -233,10 +233,10 @@ void build_boundary(Discretization& d, const Csr<FaceTerm>& positions, const Cel
 
 }  // namespace
 
-Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D,
+Discretization discretize_consistent(const Generators& X, const Cells& cells, std::span<const Mat3> D,
                                      FaceOrder order) {
   Discretization d;
-  describe_particles(d, X, cells);
+  describe_particles(d, X.points(), cells);
   {
     const Csr<FaceOfCell> faces = faces_of_cells(cells);
     const FacePositions positions = face_positions(X, cells, faces, D);

@@ -33,7 +33,7 @@ struct Scratch {
 
 class FaceFitter {
  public:
-  FaceFitter(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces)
+  FaceFitter(const Generators& X, const Cells& cells, const Csr<FaceOfCell>& faces)
       : X_(X), cells_(cells), faces_(faces) {}
 
   /// Return whether the stencil had to be widened.
@@ -56,9 +56,8 @@ class FaceFitter {
   void both_rings(const InteriorFace& f, Scratch& s) const;
   void second_ring(Index a, Scratch& s) const;
   const Vec3& at(Index a) const { return X_[static_cast<std::size_t>(a)]; }
-  std::string name(Index a) const { return fmt::format("{} at ({:g}, {:g}, {:g})", a, at(a).x, at(a).y, at(a).z); }
 
-  std::span<const Vec3> X_;
+  Generators X_;
   const Cells& cells_;
   const Csr<FaceOfCell>& faces_;
 };
@@ -105,7 +104,7 @@ bool FaceFitter::interior(const InteriorFace& f, Scratch& s, StencilFunction& fu
   throw GeometryError(
       fmt::format("the face between particles {} and {} cannot follow a linear motion: their neighbours lie in one "
                   "plane or line; use at least two layers of particles in every direction",
-                  name(f.a), name(f.b)));
+                  X_.named(f.a), X_.named(f.b)));
 }
 
 void FaceFitter::second_ring(Index a, Scratch& s) const {
@@ -153,7 +152,7 @@ bool FaceFitter::boundary(const BoundaryFace& f, const Mat3& D, Scratch& s, Coll
   throw GeometryError(
       fmt::format("the boundary face of particle {} cannot follow a linear motion: the particle's neighbours lie in "
                   "one plane or line; use at least two layers of particles in every direction",
-                  name(f.owner)));
+                  X_.named(f.owner)));
 }
 
 std::vector<Index> marked(const std::vector<char>& marks) {
@@ -175,7 +174,7 @@ Csr<FaceTerm> extrapolated_positions(std::span<const Vec3> X, const Cells& cells
   });
 }
 
-FacePositions face_positions(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
+FacePositions face_positions(const Generators& X, const Cells& cells, const Csr<FaceOfCell>& faces,
                              std::span<const Mat3> D) {
   const FaceFitter fitter(X, cells, faces);
   FacePositions p;

@@ -8,6 +8,7 @@
 #include "tessera/discretization/stencil.hpp"
 #include "tessera/discretization/voronoi_common.hpp"
 #include "tessera/tessellation/cells.hpp"
+#include "tessera/tessellation/generators.hpp"
 
 namespace tessera {
 
@@ -50,7 +51,7 @@ Csr<FaceTerm> extrapolated_positions(std::span<const Vec3> X, const Cells& cells
 
 /// The positions of the consistent formulation: exact for linear motion, from the nearest particles. `D` holds one
 /// projection per boundary face. Throws GeometryError that names particles whose neighbours lie in a plane or line.
-FacePositions face_positions(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
+FacePositions face_positions(const Generators& X, const Cells& cells, const Csr<FaceOfCell>& faces,
                              std::span<const Mat3> D);
 
 }  // namespace tessera

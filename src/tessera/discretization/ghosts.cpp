@@ -48,7 +48,7 @@ constexpr double smallest_distance = 1e-3;
 /// A boundary particle with all its neighbours, and the coefficients of its free ghosts.
 class GhostParticle {
  public:
-  GhostParticle(Index a, std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
+  GhostParticle(Index a, const Generators& X, const Cells& cells, const Csr<FaceOfCell>& faces,
                 std::span<const Mat3> D);
 
   Index ghosts() const { return static_cast<Index>(neighbours_.size()) - real_; }
@@ -69,31 +69,30 @@ class GhostParticle {
   Eigen::MatrixXd K_;
 };
 
-GhostNeighbour real_neighbour(const InteriorFace& f, Index a, std::span<const Vec3> X) {
+GhostNeighbour real_neighbour(const InteriorFace& f, Index a, const Generators& X) {
   const Index b = f.a == a ? f.b : f.a;
   const Vec3& X_a = X[static_cast<std::size_t>(a)];
   const Vec3 X_ab = X[static_cast<std::size_t>(b)] - X_a;
   return {X_ab, (norm(f.area) / norm(X_ab)) * (f.centroid - X_a)};  // [V 7]
 }
 
-GhostNeighbour mirror_image(const BoundaryFace& f, const Vec3& X_a, double size) {
+GhostNeighbour mirror_image(const BoundaryFace& f, const Generators& X, double size) {
+  const Vec3& X_a = X[static_cast<std::size_t>(f.owner)];
   const Vec3 N = normalized(f.area);
   const double distance = dot(N, f.centroid - X_a);
   if (std::abs(distance) < smallest_distance * size)
     throw GeometryError(
-        fmt::format("particle {} at ({:g}, {:g}, {:g}) lies in the plane of one of its boundary faces, so it has no "
-                    "ghost there; move the "
+        fmt::format("particle {} lies in the plane of one of its boundary faces, so it has no ghost there; move the "
                     "particle or use boundary = \"consistent\"",
-                    f.owner, X_a.x, X_a.y, X_a.z));
+                    X.named(f.owner)));
   // A negative distance (at a re-entrant edge) gives a ghost on the other side; the algebra of [V 6, 7] holds with L =
   // 2 d.
   return {2.0 * distance * N, (norm(f.area) / (2.0 * distance)) * (f.centroid - X_a)};
 }
 
-GhostParticle::GhostParticle(Index a, std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
+GhostParticle::GhostParticle(Index a, const Generators& X, const Cells& cells, const Csr<FaceOfCell>& faces,
                              std::span<const Mat3> D)
     : faces_(faces.row(a)) {
-  const Vec3& X_a = X[static_cast<std::size_t>(a)];
   const double V_a = cells.volume[static_cast<std::size_t>(a)];
   std::vector<int> free;
   for (const FaceOfCell& f : faces_) {
@@ -105,7 +104,7 @@ GhostParticle::GhostParticle(Index a, std::span<const Vec3> X, const Cells& cell
     }
     row_.push_back(is_identity(D[k]) ? -1 : static_cast<int>(free.size()));
     if (row_.back() >= 0) free.push_back(static_cast<int>(neighbours_.size()));
-    neighbours_.push_back(mirror_image(cells.boundary[k], X_a, std::cbrt(V_a)));
+    neighbours_.push_back(mirror_image(cells.boundary[k], X, std::cbrt(V_a)));
   }
   if (!free.empty()) K_ = ghost_coefficients(least_squares_matrix(branch_expansion(neighbours_, V_a)), free);
 }
@@ -113,9 +112,9 @@ GhostParticle::GhostParticle(Index a, std::span<const Vec3> X, const Cells& cell
 /// Turns ghosts into bonds (free ghosts: static condensation [V 27, 28]), nodes and closure rows.
 class GhostDiscretization {
  public:
-  GhostDiscretization(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D)
+  GhostDiscretization(const Generators& X, const Cells& cells, std::span<const Mat3> D)
       : X_(X), cells_(cells), D_(D), faces_(faces_of_cells(cells)) {
-    describe_particles(d_, X, cells);
+    describe_particles(d_, X.points(), cells);
   }
 
   Discretization build(GhostForce force) {
@@ -147,7 +146,7 @@ class GhostDiscretization {
   void add_loads();
   void add_direct_force();
 
-  std::span<const Vec3> X_;
+  Generators X_;
   const Cells& cells_;
   std::span<const Mat3> D_;
   Csr<FaceOfCell> faces_;
@@ -255,8 +254,7 @@ void GhostDiscretization::add_direct_force() {
 
 }  // namespace
 
-Discretization discretize_ghosts(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D,
-                                 GhostForce force) {
+Discretization discretize_ghosts(const Generators& X, const Cells& cells, std::span<const Mat3> D, GhostForce force) {
   return GhostDiscretization(X, cells, D).build(force);
 }
 

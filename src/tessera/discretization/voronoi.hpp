@@ -6,6 +6,7 @@
 #include "tessera/base/mat3.hpp"
 #include "tessera/discretization/discretization.hpp"
 #include "tessera/tessellation/cells.hpp"
+#include "tessera/tessellation/generators.hpp"
 
 namespace tessera {
 
@@ -16,7 +17,7 @@ enum class FaceOrder { linear, quadratic };
 /// and the same seen from both sides, V_a F_a = sum_f c_f (x) A_f. `D` holds one projection per boundary face, [V 14].
 /// Quadratic faces need the second moments of faces; they are linear where quadratics are not resolved.
 /// Throws GeometryError that names the particles whose neighbours cannot carry a linear motion.
-Discretization discretize_consistent(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D,
+Discretization discretize_consistent(const Generators& X, const Cells& cells, std::span<const Mat3> D,
                                      FaceOrder order = FaceOrder::linear);
 
 /// What the forces of the ghost formulation derive from.
@@ -28,7 +29,6 @@ enum class GhostForce {
 
 /// Ghost formulation of [V]: F_a from [V 6, 26], ghosts from [V 15-24]. `D` holds one projection per boundary face.
 /// Throws GeometryError that names a particle that lies (nearly) in the plane of one of its boundary faces.
-Discretization discretize_ghosts(std::span<const Vec3> X, const Cells& cells, std::span<const Mat3> D,
-                                 GhostForce force);
+Discretization discretize_ghosts(const Generators& X, const Cells& cells, std::span<const Mat3> D, GhostForce force);
 
 }  // namespace tessera

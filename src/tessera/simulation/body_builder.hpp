@@ -31,10 +31,14 @@ struct BuiltBody {
   std::vector<std::string> notes;  // lines for the user about what was built
 };
 
+/// Conditions that apply to one body.
+using ConditionList = std::vector<const BoundaryCondition*>;
+
 /// Conditions that a case sets on one body. In two dimensions the slab's faces are symmetric.
 std::vector<BoundaryCondition> conditions_on(const Case& c, const BodySpec& body);
 
-/// Builds one body: points, cells, constraints, bonds. `conditions` must outlive the result.
+/// Builds one body: points, cells, constraints, bonds. `conditions` must outlive the result. Geometry errors say which
+/// body it is.
 BuiltBody build_body(const Case& c, const BodySpec& body, const std::vector<BoundaryCondition>& conditions);
 
 }  // namespace tessera

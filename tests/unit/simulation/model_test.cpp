@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "sample.hpp"
 
 namespace tessera::test {
@@ -188,6 +190,20 @@ TEST(SmallBodies, OneParticleThickNeedHeldFaces) {
     c.boundary = {condition({"-z", "+z"}, Condition::symmetric)};
     EXPECT_NO_THROW(require(build_model(c).identities)) << name_of(method);
   }
+}
+
+/// Errors call bodies and particles as the user does, not by their places in memory.
+TEST(SmallBodies, ThatCannotFollowAreNamedWithParticleAndPosition) {
+  Case c = cube_case(Method::consistent);
+  c.bodies.push_back(box_body(Method::consistent, "slab", {2, 0, 0}, {3, 1, 1}, {5, 4, 1}, 0.0));
+  const std::vector<Vec3> X =
+      place_particles(c.bodies[1].particles, build_solid(*c.bodies[1].shape), Placement::cell_centres).points;
+  const std::string message = message_of<GeometryError>([&] { build_model(c); });
+  EXPECT_TRUE(contains(message, "(body \"slab\")")) << message;
+  const std::size_t a = std::stoul(message.substr(message.find("particle ") + 9));
+  ASSERT_LT(a, X.size()) << message;
+  EXPECT_TRUE(contains(message, fmt::format("particle {} at ({:g}, {:g}, {:g}) m", a, X[a].x, X[a].y, X[a].z)))
+      << message;
 }
 
 /// A traction along a held component would be lost without a word.
