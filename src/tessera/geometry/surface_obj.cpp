@@ -27,6 +27,7 @@ class ObjReader {
       : cursor_(path, without_byte_order_mark(bytes), '#'), builder_(path, PlaceUnit::line) {}
 
   FileSurface read() {
+    cursor_.require_line_feeds();
     while (!cursor_.at_end()) read_statement();
     name_sides();
     return std::move(builder_.file());

@@ -26,6 +26,7 @@ struct Property {
   std::string name;
   Number type{};
   std::optional<Number> length;  // of a list: how its length is written
+  std::int64_t line = 0;         // in the file
 };
 
 struct Element {
@@ -93,6 +94,7 @@ Property read_property(TextCursor& cursor) {
   }
   property.type = read_type(cursor);
   property.name = cursor.word();
+  property.line = cursor.line();
   return property;
 }
 
@@ -207,11 +209,20 @@ class BodyReader {
       const auto found = element.find(std::string(1, "xyz"[d]));
       if (!found) numbers_.fail("the vertices have no coordinates: the properties x, y and z are needed");
       place[d] = *found;
+      refuse_list(element.properties[*found]);
     }
     for (std::size_t i = 0; i < element.count; ++i) {
       read_one(element);
       builder_.add_vertex({values_[place[0]], values_[place[1]], values_[place[2]]});
     }
+  }
+
+  void refuse_list(const Property& coordinate) const {
+    if (!coordinate.length) return;
+    throw GeometryError(locate(builder_.file().path, PlaceUnit::line, coordinate.line) +
+                        fmt::format("the coordinate {0} of vertices is a list; one number is allowed, as in \"property "
+                                    "float {0}\" or \"property double {0}\"",
+                                    coordinate.name));
   }
 
   void read_faces(const Element& element) {

@@ -72,12 +72,17 @@ std::string_view TextCursor::peek() {
 std::string_view TextCursor::word() {
   const std::string_view next = peek();
   word_line_ = line_;
-  if (next.empty())
-    fail(bytes_.find('\n') == std::string_view::npos && bytes_.find('\r') != std::string_view::npos
-             ? "the file is one line: its lines end in carriage returns alone; write it again with line feeds"
-             : "the file ends too early: it is truncated; write it again");
+  if (next.empty()) {
+    require_line_feeds();
+    fail("the file ends too early: it is truncated; write it again");
+  }
   position_ += next.size();
   return next;
+}
+
+void TextCursor::require_line_feeds() const {
+  if (bytes_.find('\n') == std::string_view::npos && bytes_.find('\r') != std::string_view::npos)
+    fail("the file is one line: its lines end in carriage returns alone; write it again with line feeds");
 }
 
 void TextCursor::expect(std::string_view expected) {

@@ -18,6 +18,8 @@ class TextCursor {
   std::string_view word();
   /// The next word without moving on; empty at the end of the file.
   std::string_view peek();
+  /// Fails where lines end in carriage returns alone, which makes one line of all: for formats in which lines count.
+  void require_line_feeds() const;
   /// Reads the word `expected`, in capitals or not.
   void expect(std::string_view expected);
   double number();

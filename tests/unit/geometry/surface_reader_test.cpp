@@ -239,6 +239,12 @@ TEST(SurfaceReader, FaultsNameLineAndWhatIsAllowed) {
 
 TEST(SurfaceReader, FaultsSayWhatIsOdd) {
   expect_contains(fault_of(read_stl, "solid a\rfacet normal 0 0 1\r"), "carriage returns alone");
+  for (const char* text : {"v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", "# a comment\rv 0 0 0\r"})
+    expect_contains(fault_of(read_obj, text), "f:1: the file is one line: its lines end in carriage returns alone");
+  expect_contains(fault_of(read_ply,
+                           "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                           "property list uchar float y\nproperty float z\nend_header\n0 1 0 0\n"),
+                  "f:5: the coordinate y of vertices is a list; one number is allowed, as in \"property float y\"");
   expect_contains(fault_of(read_ply,
                            "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
                            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
