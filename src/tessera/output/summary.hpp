@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tessera/output/displacement_error.hpp"
 #include "tessera/output/quality.hpp"
@@ -70,10 +71,15 @@ struct Summary {
   IntegrationSummary integration;
   std::optional<MassScalingSummary> mass_scaling;  // the key is left out without it
   double max_force_residual = 0.0;                 // largest |force| on a free particle at the end [N]
+  std::vector<std::string> warnings;               // what makes the result doubtful, with what to do
 };
 
 /// The summary as JSON text. Numbers that are not finite become null.
 std::string to_json(const Summary& summary);
+
+/// What the energies say against a result: the bonds, which only stabilise, held more of the strain energy than they do
+/// in any sound run. Empty where they did not.
+std::string warning_of_bonds(const EnergyLedger& e);
 
 /// Parts of it for people, in one line.
 std::string mass_scaling_text(const MassScalingSummary& m);

@@ -160,6 +160,10 @@ void Engine::verify_deformation() const {
     if (J[a] <= 0.0) fail(static_cast<Index>(a), fmt::format("the cell is inverted (J = {:.3g})", J[a]));
 }
 
+bool Engine::was_strained() const {
+  return energies().largest_strain > negligible_strain_energy * elastic_scale(model_.system);
+}
+
 void Engine::verify_energy() {
   const EnergyLedger e = energies();
   energy_scale_ = e.scale;

@@ -38,6 +38,9 @@ class Engine {
   /// after the first tenth of the run: what a quasi-static run keeps small.
   double largest_kinetic_share() const { return largest_kinetic_share_; }
 
+  /// Has there been strain energy beyond round-off at a look at the energy?
+  bool was_strained() const;
+
   // Observations; prepare() was called for this time.
   EnergyLedger energies() const;
   Momentum momentum() const;

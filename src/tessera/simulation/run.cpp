@@ -70,6 +70,7 @@ class Run {
   void save_checkpoint();
   void leave_last_good_state();
   MassScalingSummary mass_scaling_summary() const;
+  std::vector<std::string> warnings() const;
   void summarise(const std::string& status, const std::string& message);
 
   const Case& case_;
@@ -204,6 +205,13 @@ MassScalingSummary Run::mass_scaling_summary() const {
           engine_->largest_kinetic_share()};
 }
 
+std::vector<std::string> Run::warnings() const {
+  std::vector<std::string> list;
+  if (!engine_->was_strained()) return list;
+  if (std::string bonds = warning_of_bonds(engine_->energies()); !bonds.empty()) list.push_back(std::move(bonds));
+  return list;
+}
+
 void Run::summarise(const std::string& status, const std::string& message) {
   Summary s;
   s.version = version();
@@ -237,6 +245,8 @@ void Run::summarise(const std::string& status, const std::string& message) {
   s.integration = integration_of(*model_);
   if (engine_->mass_scaling()) s.mass_scaling = mass_scaling_summary();
   s.max_force_residual = engine_->largest_force();
+  s.warnings = warnings();
+  for (const std::string& warning : s.warnings) fmt::print(stderr, "tessera: warning: {}\n", warning);
   write_summary(summary_path(options_.directory), s);
 }
 

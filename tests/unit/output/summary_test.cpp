@@ -56,9 +56,10 @@ TEST(Summary, HoldsEveryKey) {
                           "max_force_residual",
                           "step_control",
                           "quality",
-                          "integration"})
+                          "integration",
+                          "warnings"})
     EXPECT_TRUE(json.contains(key)) << key;
-  EXPECT_EQ(json.size(), 20u);
+  EXPECT_EQ(json.size(), 21u);
   EXPECT_EQ(json["dt"].get<double>(), 1.0 / 3.0);
   EXPECT_EQ(json["wall_seconds"],
             (nlohmann::json{{"setup", 1.0}, {"steps", 2.0}, {"time_step", 0.5}, {"output", 3.0}}));
@@ -95,6 +96,21 @@ TEST(Summary, TellsOfMassScalingWhereThereIsSome) {
       mass_scaling_text(*s.mass_scaling),
       "mass scaling for steps of 2e-06 s: 12.5% of the mass added, to 7 particles (particle 3 of body \"block\" is 4 "
       "times as heavy); kinetic energy at most 0.1% of the energy after the first tenth of the run");
+}
+
+TEST(Summary, WarnsOfBondsThatHoldMuchOfTheEnergy) {
+  EnergyLedger e;
+  EXPECT_EQ(warning_of_bonds(e), "");  // no strain, no share
+  e.largest_strain = 10.0;
+  e.largest_contact = 2.0;
+  EXPECT_EQ(warning_of_bonds(e), "");
+  e.largest_contact = 2.9;
+  const std::string warning = warning_of_bonds(e);
+  EXPECT_EQ(warning.substr(0, 43), "the bonds held 29% of the strain energy (en") << warning;
+  Summary s = example();
+  EXPECT_EQ(nlohmann::json::parse(to_json(s))["warnings"], nlohmann::json::array());
+  s.warnings = {warning};
+  EXPECT_EQ(nlohmann::json::parse(to_json(s))["warnings"], nlohmann::json::array({warning}));
 }
 
 TEST(Summary, NumbersThatAreNotFiniteAreNull) {

@@ -64,6 +64,28 @@ TEST(FailingRuns, SayWhichCellIsInverted) {
   expect_inverted_cell(Method::consistent, Integration::second_order);
 }
 
+/// Nothing stops a lid that is driven through the bottom, as long as no cell is inverted: then bonds hold the cells.
+TEST(FailingRuns, WarnWhenBondsHoldTheBody) {
+  Case c = cube_case(Method::consistent, {3, 3, 3}, 0.2);
+  c.time.end = 1.0;
+  c.time.step = AutoStep{};
+  const auto press = [&](const std::string& speed) {
+    c.boundary = {condition({"-y"}, Condition::fixed),
+                  condition({"+y"}, PrescribedDisplacement{components(formulas("0", "-" + speed + "*t", "0"))})};
+    const std::string directory = folder("pressed");
+    testing::internal::CaptureStderr();
+    run_case(c, into(directory));
+    EXPECT_EQ(contains(testing::internal::GetCapturedStderr(), "tessera: warning: the bonds held"), speed == "1.2");
+    const nlohmann::json summary = summary_of(directory);
+    EXPECT_EQ(summary["status"], "done");
+    return summary["warnings"];
+  };
+  EXPECT_EQ(press("0.3"), nlohmann::json::array());
+  const nlohmann::json warnings = press("1.2");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0].get<std::string>(), "of the strain energy")) << warnings;
+}
+
 /// A step above the limit, forced: the highest modes grow from round-off.
 TEST(FailingRuns, NoticeGrowingEnergy) {
   for (Method method : {Method::delaunay, Method::consistent, Method::variational}) {
