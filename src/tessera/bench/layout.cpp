@@ -20,25 +20,36 @@ struct PerParticle {
   double bonds, slots, rim;
 };
 
-constexpr double hessian = sizeof(Hessian), points = sizeof(ThreeTensors), face = 6.0 * number;
-constexpr double map = 54.0 * number, constants_of_a_lane = sizeof(CurvatureRows::Constants) / 4.0;
+constexpr double hessian = sizeof(Hessian), points = sizeof(ThreeTensors), face = sizeof(CurvatureRows::FaceFactors);
+constexpr double map = sizeof(SecondDerivatives::Map);
+
+/// The rows of second-order integration: faces of all tiles, entries of rows.
+struct CurvaturePerParticle {
+  explicit CurvaturePerParticle(const System& s)
+      : faces(static_cast<double>(s.second_order->rows.M.size()) / static_cast<double>(s.particles())),
+        neighbours(static_cast<double>(s.second_order->rows.neighbours.size()) / static_cast<double>(s.particles())) {}
+
+  double faces, neighbours;
+};
 
 /// What second-order integration streams beside the rest: each array once a sweep.
-double second_order_bytes(const PerParticle& n) {
-  const double nodes = 1.0 + n.rim, rows = n.slots * local + row + constants_of_a_lane;
+double second_order_bytes(const PerParticle& n, const CurvaturePerParticle& c) {
+  const double nodes = 1.0 + n.rim,
+               rows = c.neighbours * sizeof(CurvatureRows::Neighbour) + local + sizeof(CurvatureRows::Row);
   const double hessians = nodes * (tensor + vec3) + n.rim * index + rows + map + hessian;
   const double strain =
-      nodes * (hessian + vec3) + n.rim * index + rows + n.slots * face + 2.0 * tensor + number + hessian;
+      nodes * (hessian + vec3) + n.rim * index + rows + c.faces * face + 2.0 * tensor + 2.0 * number + hessian;
   const double cubature = 2.0 * hessian + 2.0 * sizeof(Mat3) + 4.0 * points + 2.0 * tensor;
-  const double moments = nodes * (tensor + hessian + 2.0 * vec3 + number) + n.rim * index + rows + n.slots * face +
-                         map + n.bonds * incoming + nodes * (tensor + local);
+  const double moments = nodes * (tensor + hessian + 2.0 * vec3) + n.rim * index + rows + c.faces * face + map + vec3 +
+                         c.neighbours * local + nodes * (tensor + local);
   const double forces = tensor + n.rim * tensor;
   return hessians + strain + cubature + moments + forces;
 }
 
-double second_order_memory_bytes(const PerParticle& n) {
-  return n.slots * (local + face) + map + constants_of_a_lane + number + sizeof(Mat3) + 2.0 * hessian + points +
-         2.0 * tensor + n.rim * tensor + vec3 /* centroid */;
+double second_order_memory_bytes(const PerParticle& n, const CurvaturePerParticle& c) {
+  const double rows = c.neighbours * (sizeof(CurvatureRows::Neighbour) + local) + sizeof(CurvatureRows::Row) +
+                      c.faces * face + map + vec3 + number + (1.0 + n.rim) * local;
+  return rows + sizeof(Mat3) + 2.0 * hessian + points + 2.0 * tensor + n.rim * tensor + vec3 /* centroid */;
 }
 
 }  // namespace
@@ -54,7 +65,7 @@ double bytes_per_particle_step(const System& s) {
   const double cells = (1.0 + n.rim) * (vec3 + local) + sizeof(Mat3) + n.bonds * incoming + 2.0 * tensor +
                        n.rim * (2.0 * tensor + index) + offset + number;
   return strain + contact_and_stress + force + rims + kick_and_drift + (s.gradients ? cells : 0.0) +
-         (s.second_order ? second_order_bytes(n) : 0.0);
+         (s.second_order ? second_order_bytes(n, CurvaturePerParticle(s)) : 0.0);
 }
 
 double bytes_per_particle(const System& s) {
@@ -66,7 +77,7 @@ double bytes_per_particle(const System& s) {
   const double viscous = s.viscosity.empty() ? 0.0 : 2.0 * tensor + sizeof(ViscosityLaw);
   const double cells = vec3 /* centroid */ + sizeof(Mat3) + (1.0 + n.rim) * tensor;
   return bonds + rims + constants + state + viscous + (s.gradients ? cells : 0.0) +
-         (s.second_order ? second_order_memory_bytes(n) : 0.0);
+         (s.second_order ? second_order_memory_bytes(n, CurvaturePerParticle(s)) : 0.0);
 }
 
 }  // namespace tessera

@@ -70,7 +70,7 @@ void add_extrapolated_strain(const System& s, double sign, const Double4* x, Ten
 /// Calls body(surface) for the surfaces of all cells at free boundaries, one for each cell.
 template <class Body>
 void for_all_surfaces(const System& s, Body&& body) {
-  const std::vector<CurvedSurface>& surfaces = s.second_order->rows.surfaces;
+  const std::vector<CurvedSurface>& surfaces = s.second_order->surfaces;
   parallel::for_each(static_cast<std::int64_t>(surfaces.size()),
                      [&](std::int64_t k) { body(surfaces[static_cast<std::size_t>(k)]); });
 }
@@ -96,8 +96,9 @@ void add_surface_strain(const System& s, const Hessian* H, Tensor* F) {
 
 void add_surface_moments(const System& s, const Tensor* T, Hessian* G) {
   for_all_surfaces(s, [&](const CurvedSurface& c) {
+    const double share = s.second_order->rows.inverse_sum[static_cast<std::size_t>(c.particle)];
     for (std::size_t r = 0; r < 6; ++r) {
-      const Double4 force = apply(to_kernel(T[c.particle]), c.area_moment[r]);
+      const Double4 force = share * apply(to_kernel(T[c.particle]), c.area_moment[r]);
       for (std::size_t i = 0; i < 3; ++i) G[c.particle].h[3 * r + i] += force[static_cast<int>(i)];
     }
   });
@@ -119,6 +120,7 @@ SecondOrderSystem second_order_system(const Discretization& d, const Tiles& tile
     add_gradient_row(d, a, gradients.to_points[static_cast<std::size_t>(a)], s.gradients);
   }
   transpose_gradients(s);
+  s.surfaces = d.second_order->surfaces;
   s.held = d.second_order->held;
   s.extrapolated = d.second_order->extrapolated;
   transpose_faces(s);
@@ -162,7 +164,8 @@ void find_point_strains(const SecondOrderSystem& s, Index begin, Index end, cons
 }
 
 void take_moments(const SecondOrderSystem& s, Index begin, Index end, SecondOrderMemory& memory) {
-  point_moment_sweep(s.points.data(), begin, end, memory.points.data(), memory.weighted.data());
+  point_moment_sweep(s.points.data(), s.rows.inverse_sum.data(), begin, end, memory.points.data(),
+                     memory.weighted.data());
   for_unresolved(s, begin, end, [&](Index, Index a) { memory.weighted[static_cast<std::size_t>(a)] = {}; });
 }
 

@@ -24,10 +24,11 @@ struct SecondOrderSystem {
   };
 
   CurvatureRows rows;
-  std::vector<Mat3> points;       // columns: distances of three cubature points from the centroid [m]
-  std::vector<Index> unresolved;  // cells whose points follow from the neighbours' F, ascending
-  Csr<GradientTerm> gradients;    // one row for each of them
-  std::vector<Index> receivers;   // cells that these rows name, ascending, with one row each
+  std::vector<CurvedSurface> surfaces;  // of cells at free boundaries
+  std::vector<Mat3> points;             // columns: distances of three cubature points from the centroid [m]
+  std::vector<Index> unresolved;        // cells whose points follow from the neighbours' F, ascending
+  Csr<GradientTerm> gradients;          // one row for each of them
+  std::vector<Index> receivers;         // cells that these rows name, ascending, with one row each
   Csr<GradientTerm> returned;
 
   std::vector<HeldFace> held;        // faces of boundary nodes, in their order...
@@ -43,7 +44,7 @@ SecondOrderSystem second_order_system(const Discretization& d, const Tiles& tile
 struct SecondOrderMemory {
   explicit SecondOrderMemory(const System& s);
 
-  Field<Hessian> weighted;     // q_a H_a; later the derivative of the energy with respect to the mean H_a
+  Field<Hessian> weighted;     // q_a H_a; later the derivative of the energy with respect to sum_b q_b H_b around a
   Field<Hessian> H;            // mean second derivatives
   Field<ThreeTensors> points;  // F at three points of each cell less F_a; later what multiplies it in the energy [J]
   Field<Tensor> T;             // complete stresses [Pa]

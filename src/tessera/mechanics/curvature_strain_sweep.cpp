@@ -1,0 +1,54 @@
+#include "tessera/mechanics/curvature_nodes.hpp"
+
+namespace tessera {
+
+TESSERA_KERNEL void curvature_strain_sweep(const System& s, Index k, const Hessian* weighted, CurvatureScratch& scratch,
+                                           Tensor* F, Hessian* mean) {
+  struct Node {
+    Double4 h[derivatives];  // of q H, the first three with a component of the position
+  };
+  Node* __restrict nodes = reinterpret_cast<Node*>(scratch.nodes.data());
+  const Vec3* X = s.d.X.data();
+  for_each_node(
+      s, k,
+      [&](Index local, Index b) {
+        Double4(&h)[derivatives] = nodes[local].h;
+        put_vectors(weighted[b], h);
+        h[0] = with_fourth(h[0], X[b].x), h[1] = with_fourth(h[1], X[b].y), h[2] = with_fourth(h[2], X[b].z);
+      },
+      [&](Index b) { fetch_all(weighted + b), fetch(X + b); });
+  RowReader rows(s, k);
+  const double* volume = s.d.volume.data() + rows.tile.begin;
+  const double* inverse_sum = s.second_order->rows.inverse_sum.data() + rows.tile.begin;
+  const Double4 other_way{1.0, 1.0, 1.0, -1.0};
+  for (Index row = 0; row < rows.tile.size(); ++row, rows.next()) {
+    const Index local = *rows.order;
+    Node a = nodes[local];
+    unrolled<3>([&](auto j) { a.h[j] *= other_way; });
+    Double4 sum[derivatives]{}, VF[3]{};
+    rows.for_each_neighbour(
+        [&](const CurvatureRows::Neighbour& n) {
+          const Node& b = nodes[n.cell];
+          const double* M = rows.M + derivatives * n.face;
+          Double4 both[derivatives], c{};
+          unrolled<derivatives>([&](auto r) {
+            both[r] = a.h[r] + b.h[r];
+            sum[r] += both[r];
+            c += M[r] * both[r];
+          });
+          unrolled<3>([&](auto j) { VF[j] += fourth(both[j]) * c; });
+        },
+        rows.next_M);
+    RowReader::fetch_result(mean + rows.tile.begin, row);
+    RowReader::fetch_result(F + rows.tile.begin, row);
+
+    const double others = 1.0 - rows.row->neighbours;
+    unrolled<derivatives>([&](auto r) { sum[r] = inverse_sum[local] * (sum[r] + others * a.h[r]); });
+    store_vectors(sum, mean[rows.tile.begin + local].h);
+    Tensor& F_a = F[rows.tile.begin + local];
+    const Columns change{VF[0], VF[1], VF[2]};
+    store(F_a, to_kernel(F_a) + (1.0 / volume[local]) * change);
+  }
+}
+
+}  // namespace tessera
