@@ -303,6 +303,9 @@ class Runs(CliTest):
     def test_step_above_the_limit(self):
         self.write(CASE)
         self.check_fails(INPUT, "time.step", arguments=["run", "case.toml", "-q", "--set", "time.step=1", "time.end=2"])
+        warning = "warning: a run refuses time.step = 1 s, which is above the spectral limit of "
+        self.assertIn(warning, self.call("check", "case.toml", "--set", "time.step=1", "time.end=2").stdout)
+        self.assertNotIn(warning, self.call("check", "case.toml", "--set", "time.step=1e-5").stdout)
 
     def test_check(self):
         self.write(CASE)

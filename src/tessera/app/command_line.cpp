@@ -32,7 +32,7 @@ class CommandLine {
     add_new();
     add_bench();
     help_ = app_.add_subcommand("help", "Print the help of a command");
-    help_->add_option("COMMAND", help_for_, "run, check, describe or new");
+    help_->add_option("COMMAND", help_for_, "run, check, describe, new or bench");
   }
 
   Command parse(std::vector<std::string> arguments) {
@@ -57,7 +57,7 @@ class CommandLine {
     add_overrides(run_, run_values_.overrides);
     auto* resume = run_->add_flag("--resume", run_values_.resume, "Go on from the checkpoint in the result folder");
     run_->add_flag("--force", run_values_.force, "Replace the result folder if it exists")->excludes(resume);
-    run_->add_flag("-q,--quiet", run_values_.quiet, "No progress, no notes");
+    run_->add_flag("-q,--quiet", run_values_.quiet, "No progress, no notes; warnings and errors stay");
   }
 
   void add_check() {

@@ -38,7 +38,10 @@ void remove_results(const fs::path& folder) {
 
 void check_existing(const std::string& directory, ExistingResult existing) {
   if (existing == ExistingResult::resume && !fs::exists(checkpoint_path(directory)))
-    throw UsageError(fmt::format("{}: nothing to resume: no checkpoint.h5 in it; run without --resume", directory));
+    throw UsageError(
+        fmt::format("{}: nothing to resume: no checkpoint.h5 in it (a run that is done leaves one only with "
+                    "output.checkpoint); run without --resume",
+                    directory));
   if (existing == ExistingResult::refuse && !fs::is_empty(directory))
     throw UsageError(
         fmt::format("{}: the result folder exists and is not empty; --force replaces the results in it, "

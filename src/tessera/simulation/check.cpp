@@ -69,7 +69,13 @@ Findings examine(const Case& c) {
   const auto walls = model.loads.motion.positions();
   const auto scaling = scaled_mass(model, spec, state);
   const auto mass = inertia(model, scaling);
-  f.dt = StepControl(spec, model.system, state, walls, mass).memory().dt;
+  const StepControl::Memory step = StepControl(spec, model.system, state, walls, mass).memory();
+  f.dt = step.dt;
+  if (const auto* fixed = std::get_if<FixedStep>(&c.time.step); fixed && !fixed->force && step.dt > step.limit)
+    f.notes.push_back(fmt::format(
+        "warning: a run refuses time.step = {:g} s, which is above the spectral limit of {:g} s; take a smaller one, "
+        "\"auto\" or \"auto-spectral\" (or force = true)",
+        step.dt, step.limit));
   f.limit =
       stable_step(model.system, SpectralEstimator(model.system, mass).largest_frequency(state, walls, f.shortest));
   f.steps = c.time.end > 0.0 ? std::ceil(c.time.end / f.dt) : 0.0;

@@ -44,7 +44,9 @@ TEST(ResultFolder, ResumingNeedsACheckpoint) {
   const sample::Folder folder;
   const std::string message =
       sample::message_of<UsageError>([&] { prepare_result_folder(folder.path(), ExistingResult::resume); });
-  EXPECT_EQ(message, folder.path() + ": nothing to resume: no checkpoint.h5 in it; run without --resume");
+  EXPECT_EQ(message, folder.path() +
+                         ": nothing to resume: no checkpoint.h5 in it (a run that is done leaves one only with "
+                         "output.checkpoint); run without --resume");
   EXPECT_THROW(prepare_result_folder(folder.file("missing"), ExistingResult::resume), UsageError);
   EXPECT_FALSE(folder.has("missing"));
   folder.write("checkpoint.h5", "state");
