@@ -15,6 +15,7 @@
 #include "tessera/discretization/voronoi.hpp"
 #include "tessera/dynamics/leapfrog.hpp"
 #include "tessera/mechanics/cell_sweeps.hpp"
+#include "tessera/mechanics/curved_sweep.hpp"
 #include "tessera/parallel/parallel.hpp"
 #include "tessera/parallel/workspaces.hpp"
 #include "tessera/tessellation/cells.hpp"
@@ -127,9 +128,7 @@ struct PassSeconds {
 void second_order_stress(const System& s, Index tile, const Tensor* F, TileScratch& scratch,
                          SecondOrderMemory& memory) {
   const Tile& t = s.tiles.tiles[static_cast<std::size_t>(tile)];
-  find_point_strains(*s.second_order, t.begin, t.end, F, memory);
-  varied_stress_sweep(s, tile, F, memory.points.data(), {}, nullptr, 0.0, scratch, memory.points.data(), {});
-  take_moments(*s.second_order, t.begin, t.end, memory);
+  curved_stress_sweep(s, tile, F, {}, nullptr, 0.0, scratch, memory, {});
   for (Index a = t.begin; a < t.end; ++a)
     memory.T[static_cast<std::size_t>(a)] = to_tensor(scratch.T[static_cast<std::size_t>(a - t.begin)]);
 }

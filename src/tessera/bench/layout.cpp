@@ -20,7 +20,7 @@ struct PerParticle {
   double bonds, slots, rim;
 };
 
-constexpr double hessian = sizeof(Hessian), points = sizeof(ThreeTensors), face = sizeof(CurvatureRows::FaceFactors);
+constexpr double hessian = sizeof(Hessian), face = sizeof(CurvatureRows::FaceFactors);
 constexpr double map = sizeof(SecondDerivatives::Map);
 
 /// The rows of second-order integration: faces of all tiles, entries of rows.
@@ -39,7 +39,7 @@ double second_order_bytes(const PerParticle& n, const CurvaturePerParticle& c) {
   const double hessians = nodes * (tensor + vec3) + n.rim * index + rows + map + hessian;
   const double strain =
       nodes * (hessian + vec3) + n.rim * index + rows + c.faces * face + 2.0 * tensor + 2.0 * number + hessian;
-  const double cubature = 2.0 * hessian + 2.0 * sizeof(Mat3) + 4.0 * points + 2.0 * tensor;
+  const double cubature = 2.0 * hessian + sizeof(Symmetric3) + number + 2.0 * tensor;
   const double moments = nodes * (tensor + hessian + 2.0 * vec3) + n.rim * index + rows + c.faces * face + map + vec3 +
                          c.neighbours * local + nodes * (tensor + local);
   const double forces = tensor + n.rim * tensor;
@@ -49,7 +49,7 @@ double second_order_bytes(const PerParticle& n, const CurvaturePerParticle& c) {
 double second_order_memory_bytes(const PerParticle& n, const CurvaturePerParticle& c) {
   const double rows = c.neighbours * (sizeof(CurvatureRows::Neighbour) + local) + sizeof(CurvatureRows::Row) +
                       c.faces * face + map + vec3 + number + (1.0 + n.rim) * local;
-  return rows + sizeof(Mat3) + 2.0 * hessian + points + 2.0 * tensor + n.rim * tensor + vec3 /* centroid */;
+  return rows + sizeof(Symmetric3) + 2.0 * hessian + 2.0 * tensor + n.rim * tensor + vec3 /* centroid */;
 }
 
 }  // namespace

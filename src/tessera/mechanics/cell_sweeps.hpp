@@ -39,12 +39,6 @@ StressSums cell_stress_sweep_of_four(const System& s, Index tile, const Tensor* 
                                      ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
                                      const CellReport& report);
 
-/// The same where the variation of F is known: `E` are the E_q of every particle, `Z` takes V_a dU/dE_q of the tile's
-/// own [J].
-StressSums varied_stress_sweep(const System& s, Index tile, const Tensor* F, const ThreeTensors* E,
-                               const HistorySpan& history, ViscousMemory* viscous, double dt, TileScratch& scratch,
-                               ThreeTensors* Z, const CellReport& report);
-
 /// Puts the tile's nodes into the scratch where there is no contact_sweep before.
 void load_tile(const System& s, Index tile, const Double4* x, const Tensor* F, TileScratch& scratch);
 

@@ -10,21 +10,22 @@ CurvatureScratch::CurvatureScratch(const Tiles& tiles)
       moments(static_cast<std::size_t>(tiles.most_particles)),
       T(static_cast<std::size_t>(tiles.most_particles)) {}
 
-TESSERA_KERNEL void point_strain_sweep(const Mat3* points, Index begin, Index end, const Hessian* H, ThreeTensors* E) {
+TESSERA_KERNEL void point_strain_sweep(const Symmetric3* points, Index begin, Index end, const Hessian* H,
+                                       ThreeTensors* E) {
   for (Index a = begin; a < end; ++a) {
     Double4 h[derivatives];
     put_vectors(H[a], h);
-    const Mat3& p = points[a];
+    const Mat3 p = to_mat3(points[a]);
     for (int q = 0; q < 3; ++q)
       E[a].k[q] = {p(0, q) * h[0] + p(1, q) * h[1] + p(2, q) * h[2], p(0, q) * h[1] + p(1, q) * h[3] + p(2, q) * h[4],
                    p(0, q) * h[2] + p(1, q) * h[4] + p(2, q) * h[5]};
   }
 }
 
-TESSERA_KERNEL void point_moment_sweep(const Mat3* points, const double* inverse_sum, Index begin, Index end,
+TESSERA_KERNEL void point_moment_sweep(const Symmetric3* points, const double* inverse_sum, Index begin, Index end,
                                        const ThreeTensors* Z, Hessian* G) {
   for (Index a = begin; a < end; ++a) {
-    const Mat3& p = points[a];
+    const Mat3 p = to_mat3(points[a]);
     Double4 g[derivatives]{};
     for (int q = 0; q < 3; ++q) {
       const Columns& z = Z[a].k[q];

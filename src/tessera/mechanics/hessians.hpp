@@ -49,11 +49,11 @@ void curvature_moment_sweep(const System& s, Index tile, const Tensor* T, const 
                             CurvatureScratch& scratch, Tensor* T_first, Tensor* rim);
 
 /// E_q = H_a p_q for q = 1 to 3, the columns of `points` being the p_q, for a in [begin, end).
-void point_strain_sweep(const Mat3* points, Index begin, Index end, const Hessian* H, ThreeTensors* E);
+void point_strain_sweep(const Symmetric3* points, Index begin, Index end, const Hessian* H, ThreeTensors* E);
 
 /// The way back: sets G_a / sum q to what `Z`, the derivatives of the energy with respect to the E_q, make, with the
-/// `inverse_sum` of each cell.
-void point_moment_sweep(const Mat3* points, const double* inverse_sum, Index begin, Index end, const ThreeTensors* Z,
-                        Hessian* G);
+/// `inverse_sum` of each cell: nothing where it is not resolved.
+void point_moment_sweep(const Symmetric3* points, const double* inverse_sum, Index begin, Index end,
+                        const ThreeTensors* Z, Hessian* G);
 
 }  // namespace tessera

@@ -36,14 +36,6 @@ void transpose_gradients(SecondOrderSystem& s) {
   s.returned = group_by_used_row(std::move(targets), s.receivers);
 }
 
-/// Calls body(k, a) for the unresolved cells in [begin, end): number and particle.
-template <class Body>
-void for_unresolved(const SecondOrderSystem& s, Index begin, Index end, Body&& body) {
-  const auto first = std::lower_bound(s.unresolved.begin(), s.unresolved.end(), begin);
-  for (auto it = first; it != s.unresolved.end() && *it < end; ++it)
-    body(static_cast<Index>(it - s.unresolved.begin()), *it);
-}
-
 void transpose_faces(SecondOrderSystem& s) {
   std::vector<RowItem<SecondOrderSystem::FaceShare>> targets;
   for (Index k = 0; k < s.extrapolated.rows(); ++k)
@@ -112,7 +104,8 @@ SecondOrderSystem second_order_system(const Discretization& d, const Tiles& tile
   const CellGradients gradients = cell_gradients(d);
   s.points.resize(d.X.size());
   parallel::for_each(d.particles(), [&](std::int64_t a) {
-    s.points[static_cast<std::size_t>(a)] = cubature_points(d.measure->second_moment[static_cast<std::size_t>(a)]);
+    const Mat3 p = cubature_points(d.measure->second_moment[static_cast<std::size_t>(a)]);
+    s.points[static_cast<std::size_t>(a)] = {p(0, 0), p(0, 1), p(0, 2), p(1, 1), p(1, 2), p(2, 2)};
   });
   for (Index a = 0; a < d.particles(); ++a) {
     if (d.second_order->derivatives.resolved[static_cast<std::size_t>(a)]) continue;
@@ -133,7 +126,8 @@ SecondOrderMemory::SecondOrderMemory(const System& s)
   const auto particles = static_cast<std::size_t>(s.particles());
   weighted.resize(particles);
   H.resize(particles);
-  points.resize(particles);
+  unresolved.resize(s.second_order->unresolved.size());
+  if (s.average) points.resize(particles);
   T.resize(particles);
   T_first.resize(particles);
   rim_energies.resize(s.tiles.rim.size());
@@ -151,22 +145,33 @@ void add_curvature_strain(const System& s, const Double4* x, SecondOrderMemory& 
   add_extrapolated_strain(s, -1.0, x, F);
 }
 
-void find_point_strains(const SecondOrderSystem& s, Index begin, Index end, const Tensor* F,
-                        SecondOrderMemory& memory) {
-  point_strain_sweep(s.points.data(), begin, end, memory.H.data(), memory.points.data());
-  for_unresolved(s, begin, end, [&](Index k, Index a) {
+void find_unresolved_strains(const SecondOrderSystem& s, const Tensor* F, SecondOrderMemory& memory) {
+  parallel::for_each(static_cast<std::int64_t>(s.unresolved.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
     ThreeTensors E{};
-    const Columns F_a = to_kernel(F[a]);
-    for (const GradientTerm& t : s.gradients.row(k))
+    const Columns F_a = to_kernel(F[s.unresolved[k]]);
+    for (const GradientTerm& t : s.gradients.row(static_cast<Index>(i)))
       for (int q = 0; q < 3; ++q) E.k[q] = E.k[q] + t.weight[q] * (to_kernel(F[t.cell]) - F_a);
-    memory.points[static_cast<std::size_t>(a)] = E;
+    memory.unresolved[k] = E;
   });
 }
 
-void take_moments(const SecondOrderSystem& s, Index begin, Index end, SecondOrderMemory& memory) {
-  point_moment_sweep(s.points.data(), s.rows.inverse_sum.data(), begin, end, memory.points.data(),
-                     memory.weighted.data());
-  for_unresolved(s, begin, end, [&](Index, Index a) { memory.weighted[static_cast<std::size_t>(a)] = {}; });
+void find_point_strains(const SecondOrderSystem& s, SecondOrderMemory& memory) {
+  parallel::for_ranges(0, static_cast<std::int64_t>(s.points.size()), [&](std::int64_t begin, std::int64_t end) {
+    point_strain_sweep(s.points.data(), static_cast<Index>(begin), static_cast<Index>(end), memory.H.data(),
+                       memory.points.data());
+  });
+  for (std::size_t k = 0; k < s.unresolved.size(); ++k)
+    memory.points[static_cast<std::size_t>(s.unresolved[k])] = memory.unresolved[k];
+}
+
+void take_point_moments(const SecondOrderSystem& s, SecondOrderMemory& memory) {
+  parallel::for_ranges(0, static_cast<std::int64_t>(s.points.size()), [&](std::int64_t begin, std::int64_t end) {
+    point_moment_sweep(s.points.data(), s.rows.inverse_sum.data(), static_cast<Index>(begin), static_cast<Index>(end),
+                       memory.points.data(), memory.weighted.data());
+  });
+  for (std::size_t k = 0; k < s.unresolved.size(); ++k)
+    memory.unresolved[k] = memory.points[static_cast<std::size_t>(s.unresolved[k])];
 }
 
 void return_gradients(const SecondOrderSystem& s, const double* volume, SecondOrderMemory& memory) {
@@ -174,7 +179,7 @@ void return_gradients(const SecondOrderSystem& s, const double* volume, SecondOr
     const auto b = static_cast<std::size_t>(s.receivers[static_cast<std::size_t>(i)]);
     Columns sum{};
     for (const GradientTerm& t : s.returned.row(static_cast<Index>(i))) {
-      const ThreeTensors& Z = memory.points[static_cast<std::size_t>(s.unresolved[static_cast<std::size_t>(t.cell)])];
+      const ThreeTensors& Z = memory.unresolved[static_cast<std::size_t>(t.cell)];
       for (int q = 0; q < 3; ++q) sum = sum + t.weight[q] * Z.k[q];
     }
     memory.T[b] = to_tensor(to_kernel(memory.T[b]) + (1.0 / volume[b]) * sum);

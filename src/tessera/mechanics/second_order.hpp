@@ -25,7 +25,7 @@ struct SecondOrderSystem {
 
   CurvatureRows rows;
   std::vector<CurvedSurface> surfaces;  // of cells at free boundaries
-  std::vector<Mat3> points;             // columns: distances of three cubature points from the centroid [m]
+  std::vector<Symmetric3> points;       // columns: distances of three cubature points from the centroid [m]
   std::vector<Index> unresolved;        // cells whose points follow from the neighbours' F, ascending
   Csr<GradientTerm> gradients;          // one row for each of them
   std::vector<Index> receivers;         // cells that these rows name, ascending, with one row each
@@ -44,11 +44,12 @@ SecondOrderSystem second_order_system(const Discretization& d, const Tiles& tile
 struct SecondOrderMemory {
   explicit SecondOrderMemory(const System& s);
 
-  Field<Hessian> weighted;     // q_a H_a; later the derivative of the energy with respect to sum_b q_b H_b around a
-  Field<Hessian> H;            // mean second derivatives
-  Field<ThreeTensors> points;  // F at three points of each cell less F_a; later what multiplies it in the energy [J]
-  Field<Tensor> T;             // complete stresses [Pa]
-  Field<Tensor> T_first;       // stresses by way of F', but for rim_energies [Pa]
+  Field<Hessian> weighted;         // q_a H_a; later the derivative of the energy with respect to sum_b q_b H_b around a
+  Field<Hessian> H;                // mean second derivatives
+  Field<ThreeTensors> unresolved;  // F at three points of each unresolved cell less F_a; later what multiplies it [J]
+  Field<ThreeTensors> points;      // the same of all cells where laws see a mean change of volume, else empty
+  Field<Tensor> T;                 // complete stresses [Pa]
+  Field<Tensor> T_first;           // stresses by way of F', but for rim_energies [Pa]
   RawField<Tensor> rim_energies;
   mutable parallel::Workspaces<CurvatureScratch> scratch;
 };
@@ -57,11 +58,14 @@ struct SecondOrderMemory {
 /// for what boundary nodes do beyond the particles that see their faces too.
 void add_curvature_strain(const System& s, const Double4* x, SecondOrderMemory& memory, Tensor* F);
 
-/// When F is complete: `points` of the cells [begin, end), from H_a, or from differences of F where it is not resolved.
-void find_point_strains(const SecondOrderSystem& s, Index begin, Index end, const Tensor* F, SecondOrderMemory& memory);
+/// When F is complete: `unresolved`, from differences of F.
+void find_unresolved_strains(const SecondOrderSystem& s, const Tensor* F, SecondOrderMemory& memory);
 
-/// When the stresses at the points of the cells [begin, end) are known: what they do by the second derivatives.
-void take_moments(const SecondOrderSystem& s, Index begin, Index end, SecondOrderMemory& memory);
+/// Then `points` of all cells, from H_a where it is resolved.
+void find_point_strains(const SecondOrderSystem& s, SecondOrderMemory& memory);
+
+/// When `points` has become what multiplies them in the energy: what that does by the second derivatives.
+void take_point_moments(const SecondOrderSystem& s, SecondOrderMemory& memory);
 
 /// When all those are: adds to T what unresolved cells do to their neighbours.
 void return_gradients(const SecondOrderSystem& s, const double* volume, SecondOrderMemory& memory);

@@ -1,5 +1,6 @@
 #include "tessera/mechanics/averaged_cubature.hpp"
 #include "tessera/mechanics/boundary.hpp"
+#include "tessera/mechanics/curved_sweep.hpp"
 #include "tessera/mechanics/stress_integration.hpp"
 #include "tessera/mechanics/tile_nodes.hpp"
 
@@ -47,13 +48,13 @@ class SecondOrderIntegration : public StressIntegration {
 
  protected:
   /// What must be known of all points before the stresses of any.
-  virtual StressSums prepare_points(const StressTask& /*task*/) { return {}; }
+  virtual StressSums prepare_points(const StressTask& task) {
+    find_unresolved_strains(*s_.second_order, task.F, curved_);
+    return {};
+  }
 
   virtual StressSums elastic_stresses(const StressTask& task, Index tile, TileScratch& scratch) {
-    const Tile& t = tile_of(s_, tile);
-    find_point_strains(*s_.second_order, t.begin, t.end, task.F, curved_);
-    return varied_stress_sweep(s_, tile, task.F, curved_.points.data(), task.history, task.viscous, task.dt, scratch,
-                               curved_.points.data(), task.report);
+    return curved_stress_sweep(s_, tile, task.F, task.history, task.viscous, task.dt, scratch, curved_, task.report);
   }
 
   SecondOrderMemory curved_;
@@ -63,7 +64,6 @@ class SecondOrderIntegration : public StressIntegration {
     const Tile& t = tile_of(s_, tile);
     const double contact = add_tile_bonds(s_, tile, task, scratch);
     StressSums sums = elastic_stresses(task, tile, scratch);
-    take_moments(*s_.second_order, t.begin, t.end, curved_);
     add_known_viscous_stress(s_, tile, task, scratch);
     sums.contact = contact + add_tile_boundary_bonds(s_, tile, task, scratch);
     for (Index a = t.begin; a < t.end; ++a)
@@ -82,10 +82,11 @@ class AveragedSecondOrderIntegration : public SecondOrderIntegration {
 
  private:
   StressSums prepare_points(const StressTask& task) override {
-    parallel::for_ranges(0, s_.particles(), [&](std::int64_t begin, std::int64_t end) {
-      find_point_strains(*s_.second_order, static_cast<Index>(begin), static_cast<Index>(end), task.F, curved_);
-    });
-    return averaged_.evaluate(task.F, curved_.points.data(), task.history, task.report);
+    find_unresolved_strains(*s_.second_order, task.F, curved_);
+    find_point_strains(*s_.second_order, curved_);
+    const StressSums sums = averaged_.evaluate(task.F, curved_.points.data(), task.history, task.report);
+    take_point_moments(*s_.second_order, curved_);
+    return sums;
   }
 
   StressSums elastic_stresses(const StressTask& task, Index tile, TileScratch& scratch) override {
