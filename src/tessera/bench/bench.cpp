@@ -9,6 +9,7 @@
 
 #include "tessera/bench/layout.hpp"
 #include "tessera/bench/memory.hpp"
+#include "tessera/bench/rubber.hpp"
 #include "tessera/bench/triad.hpp"
 #include "tessera/discretization/cell_measure.hpp"
 #include "tessera/discretization/delaunay.hpp"
@@ -57,16 +58,6 @@ double seconds_per_call(const std::function<void()>& work) {
   return median(times);
 }
 
-Material bench_material() {
-  Material m;
-  m.name = "rubber";
-  m.young = 17e6;
-  m.poisson = 0.3;
-  m.density = 1100.0;
-  m.law = NeoHookean::from_young_poisson(m.young, m.poisson);
-  return m;
-}
-
 Moments moments_for(Integration integration) {
   if (integration == Integration::nodal) return Moments::first;
   return integration == Integration::cell ? Moments::second_of_cells : Moments::second_of_faces;
@@ -110,7 +101,7 @@ System build(Index particles, const MethodSpec& method, std::map<std::string, do
   System system;
   stages["system"] = seconds([&] {
     const std::vector<Index> material(d.X.size(), 0);
-    system = make_system(std::move(d), {bench_material()}, material);
+    system = make_system(std::move(d), {bench_rubber()}, material);
   });
   return system;
 }

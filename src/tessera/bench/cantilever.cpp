@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "tessera/bench/cantilever_reference.hpp"
+#include "tessera/bench/rubber.hpp"
 #include "tessera/simulation/engine.hpp"
 
 namespace tessera {
@@ -35,16 +36,6 @@ ReferencePoint reference_point(Formulation formulation, int per_metre) {
 Vec3 followed_point(Formulation formulation, int per_metre) {
   const double inside = formulation == Formulation::delaunay ? 0.0 : 0.5 / per_metre;
   return {6.0 - inside, 0.5 - inside, 0.5 - inside};
-}
-
-Material rubber() {
-  Material m;
-  m.name = "rubber";
-  m.young = 17e6;
-  m.poisson = 0.3;
-  m.density = 1100.0;
-  m.law = NeoHookean::from_young_poisson(m.young, m.poisson);
-  return m;
 }
 
 BodySpec beam(int per_metre) {
@@ -90,7 +81,7 @@ Case cantilever_case(Formulation formulation, int per_metre, Integration integra
   c.method.formulation = formulation;
   c.method.integration = integration;
   c.bodies = {beam(per_metre)};
-  c.materials = {rubber()};
+  c.materials = {bench_rubber()};
   c.initial = {{"", {}, {Formula(0.0), Formula(0.0), Formula("10*X/6", {})}, {}}};
   c.boundary = {{"", {{"-x"}, {}}, Condition::fixed, {}}};
   c.time.step = AutoSpectralStep{};

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <tuple>
 
 #include "tessera/base/error.hpp"
 #include "tessera/parallel/collect.hpp"
 #include "tessera/parallel/workspaces.hpp"
+#include "tessera/tessellation/cell_closure.hpp"
 #include "tessera/tessellation/surface_fence.hpp"
 #include "tessera/tessellation/surface_outline.hpp"
 #include "tessera/tessellation/surface_parts.hpp"
@@ -19,8 +19,7 @@ namespace tessera {
 namespace {
 
 constexpr double kRoundoffFace = 1e-14;  // of V^(2/3): faces smaller than this are round-off
-constexpr double kClosed = 1e-8;         // of the surface or volume: cells that miss more are wrong
-constexpr double kThin = 1e-10;          // of a cell's width: what faces that nearly coincide are off by
+constexpr double kFilled = 1e-8;         // of the volume: cells that miss more do not fill the solid
 constexpr double kFirstFence = 2.0;      // distance of the first fence, in spacings
 
 std::string named(const Generators& points, Index a) { return "particle " + points.named(a); }
@@ -76,7 +75,7 @@ class SurfaceAssembly {
     adopt();
     list_polyhedra();
     list_faces();
-    close_cells();
+    close_cells(points_, result_.cells);
     return std::move(result_);
   }
 
@@ -137,7 +136,7 @@ class SurfaceAssembly {
     if (std::find(meets_fence.begin(), meets_fence.end(), 1) != meets_fence.end()) return false;
     double total = 0.0;
     for (const double V : result_.cells.volume) total += V;
-    return std::abs(total - solid_volume_) <= kClosed * solid_volume_;
+    return std::abs(total - solid_volume_) <= kFilled * solid_volume_;
   }
 
   /// False when the cell has a face with the fence.
@@ -161,17 +160,10 @@ class SurfaceAssembly {
     return true;
   }
 
-  /// Round-off of the coordinates in the cell [m].
-  double round_off(Index a) const {
-    const Vec3& X = point(a);
-    const double size = std::cbrt(result_.cells.volume[static_cast<std::size_t>(a)]);
-    return 8.0 * std::numeric_limits<double>::epsilon() * std::max({std::abs(X.x), std::abs(X.y), std::abs(X.z), size});
-  }
-
   /// What a face needs to be more than round-off [m2].
   double smallest_face(Index a) const {
-    const double size = std::cbrt(result_.cells.volume[static_cast<std::size_t>(a)]);
-    return std::max(kRoundoffFace * size, round_off(a)) * size;
+    const double V = result_.cells.volume[static_cast<std::size_t>(a)], size = std::cbrt(V);
+    return std::max(kRoundoffFace * size, round_off(point(a), V)) * size;
   }
 
   /// Hands parts that are cut off from their particles to other cells.
@@ -301,37 +293,6 @@ class SurfaceAssembly {
   InteriorFace interior_face(const ListedFace& f, const Vec3& area, const Vec3& centroid) const {
     const bool bisects = f.low == f.a && f.high == f.b;
     return {f.a, f.b, area, centroid, bisects, bisects ? cut_of(points_, f.a, f.b) : 0.5};
-  }
-
-  struct Balance {
-    Vec3 area;
-    double surface = 0.0, volume = 0.0;
-  };
-
-  /// Takes the volumes from the faces by the divergence theorem, so that they fit each other to the last digit, and
-  /// checks that every cell is closed. The volume of a thin cell is known to round-off of its faces only.
-  void close_cells() {
-    std::vector<Balance> balances(points_.size());
-    const auto add = [&](Index a, const Vec3& area, const Vec3& centroid) {
-      Balance& balance = balances[static_cast<std::size_t>(a)];
-      balance.area += area;
-      balance.surface += norm(area);
-      balance.volume += dot(area, centroid - point(a)) / 3.0;
-    };
-    for (const InteriorFace& f : result_.cells.interior) add(f.a, f.area, f.centroid), add(f.b, -f.area, f.centroid);
-    for (const BoundaryFace& f : result_.cells.boundary) add(f.owner, f.area, f.centroid);
-    for (std::size_t a = 0; a < points_.size(); ++a) {
-      double& V = result_.cells.volume[a];
-      const double surface = balances[a].surface;
-      const double noise = std::max(round_off(static_cast<Index>(a)), kThin * std::sqrt(surface)) * surface;
-      if (norm(balances[a].area) > kClosed * surface || std::abs(balances[a].volume - V) > kClosed * V + noise)
-        throw GeometryError("the Voronoi cell of " + named(points_, static_cast<Index>(a)) +
-                            " does not close; does the surface cross itself there?");
-      V = balances[a].volume;
-      if (!(V > 0.0))
-        throw GeometryError("the Voronoi cell of " + named(points_, static_cast<Index>(a)) +
-                            " is thinner than round-off; move the particle away from the surface and from others");
-    }
   }
 
   Generators points_;
