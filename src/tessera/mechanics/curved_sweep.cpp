@@ -27,6 +27,7 @@ struct CurvedStrains {
     explicit Variation(const CurvedStrains& source) : s_(source) {}
 
     inline void find(const CellGroup<Lanes>& group, Lanes9Of<Lanes> (&E)[3]) {
+      fetch_later(group);
       const double *point[lanes_in<Lanes>], *row[lanes_in<Lanes>];
       for (Index lane = 0; lane < group.lanes; ++lane) {
         point[lane] = &s_.points[group.local[lane]].xx;
@@ -91,6 +92,15 @@ struct CurvedStrains {
     }
 
    private:
+    /// Cells of a group come in any order within a window of 64.
+    void fetch_later(const CellGroup<Lanes>& group) const {
+      const Index later = quad * group.first + 72;
+      for (std::size_t at = 0; at < group.lanes * sizeof(Hessian); at += 64) {
+        __builtin_prefetch(reinterpret_cast<const char*>(s_.H + later) + at);
+        __builtin_prefetch(reinterpret_cast<const char*>(s_.G + later) + at, 1);
+      }
+    }
+
     const Lanes& point_of(int k, int q) const { return p_[number_of[k][q]]; }
 
     /// Calls body(lane, strains) for the lanes whose cells are not resolved.
