@@ -3,8 +3,8 @@
 #   make demo                     set up, build, run the punch example, say what to open
 #   make test                     set up, build, run all tests, then the same for the preset minimal
 #   make results                  write docs/results.md, the papers' numbers beside ours, from what the last `make test` measured
-#   make accuracy                 write the tables and plots of docs/accuracy.md; hours (ACCURACY_RUNS keeps the runs)
-#   make incompressible           print the errors of examples/nearly-incompressible; an hour or two
+#   make accuracy                 write the tables and plots of docs/accuracy.md; 40 minutes of one core (ACCURACY_RUNS keeps the runs)
+#   make incompressible           print the errors of examples/nearly-incompressible; about three quarters of an hour
 #   make check                    warnings as errors, unit tests with assertions, lint
 #   make format                   clang-format in place
 #   make clean                    remove everything that was built, and the demo's result
@@ -37,8 +37,9 @@ ACCURACY_RUNS ?= build/accuracy
 accuracy:
 	/usr/bin/python3 scripts/accuracy/study.py $(ACCURACY_RUNS)
 
+INCOMPRESSIBLE_RUNS ?= build/incompressible
 incompressible:
-	TESSERA=build/release/bin/tessera /usr/bin/python3 scripts/incompressible.py
+	TESSERA=build/release/bin/tessera /usr/bin/python3 scripts/incompressible.py $(INCOMPRESSIBLE_RUNS)
 
 check:
 	$(MAKE) --no-print-directory build PRESET=dev

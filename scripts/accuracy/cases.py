@@ -92,28 +92,53 @@ class Cantilever(Case):
         return test_cantilever.rms_height(run.history, method[0], per_metre) if run.done else None
 
 
-class GradedCantilever(Cantilever):
-    """The regular cantilever with particles twice as fine along the beam in the first metre from the clamp."""
+class DividedClamp(Cantilever):
+    """The regular cantilever with the layer of cells at the clamp divided, each into parts^3 cubes."""
 
-    name, fine_until, length = "cantilever-graded", 1.0, 6.0
+    length = 6.0
+
+    def __init__(self, runs_kept, parts):
+        super().__init__(runs_kept)
+        self.parts = parts
+        if parts > 1:
+            self.name = f"cantilever-clamp-{parts}"
+
+    @staticmethod
+    def block(first, last, h):
+        """Centres of cubes of edge h of the beam from x = first to last."""
+        along, across = round((last - first) / h), round(1.0 / h)
+        return [(first + (i + 0.5) * h, (j + 0.5) * h - 0.5, (k + 0.5) * h - 0.5)
+                for i in range(along) for j in range(across) for k in range(across)]
 
     def points(self, per_metre):
         """The particles' positions, written as a file."""
         path = self.store.folder / self.name / f"points-{per_metre}.csv"
         path.parent.mkdir(parents=True, exist_ok=True)
         h = 1.0 / per_metre
-        fine = round(2 * per_metre * self.fine_until)
-        along = [(i + 0.5) * h / 2 for i in range(fine)]
-        along += [self.fine_until + (i + 0.5) * h for i in range(round((self.length - self.fine_until) * per_metre))]
-        across = [(i + 0.5) * h - 0.5 for i in range(per_metre)]
-        rows = [f"{x!r},{y!r},{z!r}" for x in along for y in across for z in across]
+        rows = [f"{x!r},{y!r},{z!r}" for x, y, z in self.block(0.0, h, h / self.parts) + self.block(h, self.length, h)]
         path.write_text("\n".join(["x,y,z", *rows]) + "\n")
         return path.resolve()
 
     def settings(self, method, per_metre, jitter):
         values = super().settings(method, per_metre, jitter)
+        if self.parts == 1:
+            return values
         values = {key: value for key, value in values.items() if not key.startswith("body.0.particles.")}
         return values | {"body.0.particles": f'{{ file = "{self.points(per_metre)}" }}'}
+
+
+class RelaxedCantilever(Cantilever):
+    """As many relaxed particles as the regular cantilever has, finer towards the clamp: their local size, a formula."""
+
+    def __init__(self, runs_kept, label, size):
+        super().__init__(runs_kept)
+        self.name, self.size = f"cantilever-relaxed-{label}", size
+
+    def settings(self, method, per_metre, jitter):
+        values = super().settings(method, per_metre, jitter)
+        values = {key: value for key, value in values.items() if not key.startswith("body.0.particles.")}
+        particles = f'{{ count = {6 * per_metre**3}, arrangement = "relaxed", size = "{self.size}", seed = 1 }}'
+        return values | {"body.0.particles": particles}
 
 
 class Contact(Cantilever):
@@ -189,7 +214,7 @@ class SpinningCube(Case):
 
 
 class LBlock(Case):
-    """Largest change of the energy after the loads, relative; spacing per metre 1, 2, 4."""
+    """Largest change of the energy after the loads, relative; particles per metre 1, 2."""
 
     name, example = "l-block", "l-block/l-block.toml"
 
@@ -214,3 +239,16 @@ class Cook(Case):
 
     def measure(self, run, method, per_metre):
         return (run.history["C.y"][-1] - 0.052) / (self.reference * self.load * self.edge / self.modulus) - 1.0
+
+
+class PureBending(Case):
+    """Errors of the strain energy of a uniformly bent beam between ends that follow the exact field."""
+
+    name, example = "pure-bending", store.ROOT / "scripts/accuracy/pure-bending.toml"
+    energy = 17e6 / 12.0 * 1e-8 / 2.0 * 2.0  # E I k^2 / 2 times the length [J]
+
+    def errors(self, method, per_metre, jitter):
+        """Of the strain energy in the exact field, and of all energy at rest; the share of the bonds in that."""
+        h = self.result(method, per_metre, jitter).history
+        at_rest = h["internal"][-1] + h["contact"][-1]
+        return h["internal"][0] / self.energy - 1.0, at_rest / self.energy - 1.0, h["contact"][-1] / at_rest

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """The study of accuracy: runs every integration on every case and writes the tables and plots of docs/accuracy.md.
 
-    scripts/accuracy/study.py RUNS [--largest N]
+    scripts/accuracy/study.py RUNS [--largest N] [--only TABLE ...]
 
 RUNS is a folder that keeps the runs; what is there already is used again. --largest leaves out runs with more particles per
-metre. All of it takes hours of one core, --largest 8 about twenty minutes. Each table stands in docs/accuracy.md between
-<!-- NAME --> and <!-- end --> and is replaced; the text around them is written by hand.
+metre. All of it takes about 40 minutes of one core, a half of them for the modes at 8 per metre. Each table stands in
+docs/accuracy.md between <!-- NAME --> and <!-- end --> and is replaced; the text around them is written by hand.
 """
 
 import argparse
@@ -37,11 +37,16 @@ def signed(value):
     return f"{100 * value:+.2f}%"
 
 
+def plain(value):
+    """Two digits, without an exponent."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
 def seconds(cost):
     if cost is None:
         return "–"
     value, extrapolated = cost
-    return f"{value:.2g}{'*' if extrapolated else ''}"
+    return f"{plain(value)}{'*' if extrapolated else ''}"
 
 
 def table(head, rows):
@@ -70,7 +75,7 @@ class Study:
         for method in methods:
             for jitter in JITTERS:
                 last = case.result(method, densities[-1], jitter)
-                cost = f"{last.steps}, {last.seconds:.2g}" if last.done else "–"
+                cost = f"{last.steps}, {plain(last.seconds)}" if last.done else "–"
                 rows.append([f"{cases.name_of(method)}, {kind(jitter)}",
                              *(percent(case.error(method, n, jitter)) for n in densities), cost,
                              seconds(case.seconds_to(method, jitter, densities))])
@@ -99,17 +104,48 @@ plot {", ".join(plots)}""", size=(900, 460))
         return self.errors_and_cost(case, densities, self.methods)
 
     def clamp(self):
-        """Error of the path, uniform regular particles and twice as fine along the beam near the clamp."""
-        uniform, graded = cases.Cantilever(self.store), cases.GradedCantilever(self.store)
+        """Error of the path with the layer of cells at the clamp divided, regular particles."""
+        parts = (1, 2, 3, 4)
         rows = []
-        for method in [m for m in self.methods if m[0] == "consistent"]:
-            cells = []
+        for method in [m for m in self.methods if m[0] == "consistent" and m[1] != "nodal"]:
             for n in self.densities(4, 8):
-                for case in (uniform, graded):
-                    run = case.result(method, n, 0.0)
-                    cells.append(f"{percent(case.error(method, n, 0.0))} ({run.particles})" if run.done else "fails")
-            rows.append([cases.name_of(method), *cells])
-        return table(["error (particles)", "4 per metre", "finer at the clamp", "8 per metre", "finer at the clamp"], rows)
+                runs_of = [cases.DividedClamp(self.store, k) for k in parts]
+                rows.append([f"{cases.name_of(method)}, {n} per metre", *(self.error_and_size(c, method, n) for c in runs_of)])
+        return table(["error (particles)", *(f"{k}³" if k > 1 else "whole" for k in parts)], rows)
+
+    def graded(self):
+        """Error of the path and steps with relaxed particles that are finer towards the clamp, by second order."""
+        sizes = ("1", "min(1, 0.4 + 1.5*X)", "min(1, 0.25 + 1.5*X)")
+        method, densities = ("consistent", "second-order"), self.densities(4, 8)
+        rows = []
+        for label, size in enumerate(sizes):
+            case = cases.RelaxedCantilever(self.store, label, size)
+            rows.append([f"`{size}`", *(self.error_and_steps(case, method, n) for n in densities)])
+        return table(["`size`", *(f"{6 * n**3} particles: error, steps" for n in densities)], rows)
+
+    @staticmethod
+    def error_and_steps(case, method, per_metre):
+        run = case.result(method, per_metre, 0.0)
+        return f"{percent(case.error(method, per_metre, 0.0))}, {run.steps}" if run.done else "fails"
+
+    @staticmethod
+    def error_and_size(case, method, per_metre):
+        run = case.result(method, per_metre, 0.0)
+        if not run.done:
+            return "fails"
+        return f"{percent(case.error(method, per_metre, 0.0))} ({run.particles})"
+
+    def pure_bending(self):
+        """Errors of the strain energy in the exact field and of all energy at rest, and the bonds' share of that."""
+        case, densities = cases.PureBending(self.store), self.densities(4, 8)
+        head = ["", *(f"{n} per metre: {what}" for n in densities for what in ("exact field", "at rest", "bonds"))]
+        rows = []
+        for method in self.methods:
+            for jitter in JITTERS:
+                errors = [case.errors(method, n, jitter) for n in densities]
+                cells = [cell for field, rest, bonds in errors for cell in (signed(field), signed(rest), percent(bonds))]
+                rows.append([f"{cases.name_of(method)}, {kind(jitter)}", *cells])
+        return table(head, rows)
 
     def others(self):
         """RMS error of x3 at 4 and 8 per metre, beside other programs."""
@@ -156,7 +192,7 @@ plot {", ".join(plots)}""", size=(900, 460))
         return table(head, rows)
 
     def l_block(self):
-        case, densities = cases.LBlock(self.store), (1, 2, 4) if self.largest > 8 else (1, 2)
+        case, densities = cases.LBlock(self.store), (1, 2)
         head = ["", *(f"{n} per metre: drift, energy" for n in densities)]
         rows = []
         for method in self.main_methods:
@@ -183,13 +219,16 @@ plot {", ".join(plots)}""", size=(900, 460))
         return self.store.modes(name, modes.BEAM, settings, modes.ENOUGH[condition])
 
     def modes(self):
-        """Errors of the frequencies at 4 per metre."""
+        """Errors of the frequencies at 4 and 8 per metre."""
+        return "".join(f"At {n} per metre:\n\n{self.modes_at(n)}\n" for n in self.densities(4, 8))
+
+    def modes_at(self, per_metre):
         head = ["", "free: bending", "torsion", "second bending", "clamped: bending", "torsion", "second bending",
                 "stable step"]
         rows = []
         for method in self.methods:
             for jitter in JITTERS:
-                found = {c: self.beam_modes(method, 4, jitter, c) for c in ("free", "fixed")}
+                found = {c: self.beam_modes(method, per_metre, jitter, c) for c in ("free", "fixed")}
                 errors = [e for c in found for e in modes.errors(found[c], c).values()]
                 rows.append([f"{cases.name_of(method)}, {kind(jitter)}", *map(signed, errors),
                              f"{modes.relative_step(found['free']):.2f}"])
@@ -217,21 +256,34 @@ plot {", ".join(plots)}""", size=(900, 460))
                 str(last.steps) if last.done else "–",
                 percent(last.summary["energy"]["largest_contact_share"]) if last.done else "–"]
 
+    def choice(self):
+        """Every method in one row, regular and 20% jitter: cantilever, its cost, and pure bending."""
+        case, bending, densities = cases.Cantilever(self.store), cases.PureBending(self.store), self.densities(4, 8, 16)
+        head = ["regular, jitter", *(f"path, {n} per metre" for n in densities), "seconds to 1%", "bending, 8 per metre"]
+        rows = []
+        for method in self.methods:
+            both = [[percent(case.error(method, n, j)) for j in JITTERS] for n in densities]
+            both.append([seconds(case.seconds_to(method, j, self.densities(2, 4, 8, 16))) for j in JITTERS])
+            both.append([signed(bending.errors(method, 8, j)[1]) for j in JITTERS])
+            rows.append([cases.name_of(method), *map(", ".join, both)])
+        return table(head, rows)
 
     def masses(self):
-        """Errors of the modes with the inertia that masses at points leave out, 4 regular particles per metre."""
+        """Errors of the modes with the inertia that masses at points leave out, regular particles."""
         head = ["", "free: bending", "torsion", "clamped: bending", "torsion"]
         rows = []
+        measures = (("", modes.frequency), (", with the cells' inner motion", modes.with_motion_inside))
         for method in [m for m in self.methods if m[0] == "consistent"]:
-            for label, measure in (("", modes.frequency), (", with the cells' inner motion", modes.with_motion_inside)):
-                found = {c: modes.errors(self.beam_modes(method, 4, 0.0, c), c, measure) for c in ("free", "fixed")}
-                rows.append([f"{cases.name_of(method)}{label}",
-                             *(signed(found[c][name]) for c in found for name in ("bending", "torsion"))])
+            for n in self.densities(4, 8):
+                for label, measure in measures:
+                    found = {c: modes.errors(self.beam_modes(method, n, 0.0, c), c, measure) for c in ("free", "fixed")}
+                    rows.append([f"{cases.name_of(method)}, {n} per metre{label}",
+                                 *(signed(found[c][name]) for c in found for name in ("bending", "torsion"))])
         return table(head, rows)
 
 
-BLOCKS = ("cantilever", "clamp", "others", "modes", "swinging_cube", "twisting_column", "spinning_cube", "l_block", "cook",
-          "masses", "contact")
+BLOCKS = ("cantilever", "clamp", "graded", "others", "pure_bending", "modes", "swinging_cube", "twisting_column", "spinning_cube",
+          "l_block", "cook", "masses", "contact", "choice")
 
 
 def replace(text, name, content):
