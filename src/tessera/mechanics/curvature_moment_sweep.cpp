@@ -91,13 +91,13 @@ TESSERA_KERNEL void curvature_moment_sweep(const System& s, Index k, const Tenso
     rows.for_each_neighbour(
         [&](const CurvatureRows::Neighbour& n) {
           const Node& b = nodes[n.cell];
-          const double* M = rows.M + derivatives * n.face;
+          const CurvatureRows::FaceFactors& M = rows.M[n.face];
           Double4 difference[3], t{};
           unrolled<3>([&](auto j) { difference[j] = b.T[j] - a.T[j]; });
           unrolled<3>([&](auto j) { t += fourth(difference[j]) * difference[j]; });
-          unrolled<derivatives>([&](auto r) { g[r] += b.g[r] - M[r] * t; });
+          unrolled<derivatives>([&](auto r) { g[r] += b.g[r] - M[std::size_t{r}] * t; });
         },
-        rows.next_M, rows.map);
+        reinterpret_cast<const double*>(rows.next_M), rows.map);
     Double4 Z[3][3]{};
     unrolled<derivatives>([&](auto r) {
       unrolled<3>([&](auto j) { unrolled<3>([&](auto l) { Z[l][j] += rows.map[9 * r + 3 * j + l] * g[r]; }); });

@@ -88,7 +88,7 @@ struct RowReader {
         order(s.tiles.order.data() + quad * tile.quad),
         row(s.second_order->rows.rows.data() + tile.begin),
         neighbour(s.second_order->rows.neighbours.data() + start(s, k).neighbour),
-        M(s.second_order->rows.M[0].data() + derivatives * start(s, k).face),
+        M(s.second_order->rows.M.data() + start(s, k).face),
         next_M(M),
         map(s.second_order->rows.map[0].data() + 54 * static_cast<Offset>(tile.begin)) {}
 
@@ -105,7 +105,7 @@ struct RowReader {
       ((stream += 4), ...);
       body(*neighbour);
     }
-    next_M += derivatives * row->first_named;
+    next_M += row->first_named;
   }
 
   /// Fetches what will be written for a row of later.
@@ -122,8 +122,8 @@ struct RowReader {
   const std::uint16_t* order;
   const CurvatureRows::Row* row;
   const CurvatureRows::Neighbour* neighbour;
-  const double* M;
-  const double* next_M;
+  const CurvatureRows::FaceFactors* M;
+  const CurvatureRows::FaceFactors* next_M;
   const double* map;
 };
 

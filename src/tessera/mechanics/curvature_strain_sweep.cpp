@@ -29,16 +29,16 @@ TESSERA_KERNEL void curvature_strain_sweep(const System& s, Index k, const Hessi
     rows.for_each_neighbour(
         [&](const CurvatureRows::Neighbour& n) {
           const Node& b = nodes[n.cell];
-          const double* M = rows.M + derivatives * n.face;
+          const CurvatureRows::FaceFactors& M = rows.M[n.face];
           Double4 both[derivatives], c{};
           unrolled<derivatives>([&](auto r) {
             both[r] = a.h[r] + b.h[r];
             sum[r] += both[r];
-            c += M[r] * both[r];
+            c += M[std::size_t{r}] * both[r];
           });
           unrolled<3>([&](auto j) { VF[j] += fourth(both[j]) * c; });
         },
-        rows.next_M);
+        reinterpret_cast<const double*>(rows.next_M));
     RowReader::fetch_result(mean + rows.tile.begin, row);
     RowReader::fetch_result(F + rows.tile.begin, row);
 
