@@ -135,13 +135,13 @@ class SecondOrderReference {
     const std::vector<Vec3>& X_c = body_.cells.centroid;
     for (std::size_t a = 0; a < n_; ++a) {
       if (!resolved_[a]) continue;
-      const auto add_gradient = [&](std::size_t b, double factor, const Vec3& C) {
+      const auto add_gradient = [&](std::size_t b, double factor, const Vec3& way) {
         for (const auto& [c, B] : F[b]) {
           std::array<double, 6> w{};
           for (std::size_t r = 0; r < 6; ++r)
             for (std::size_t j = 0; j < 3; ++j)
               for (std::size_t k = 0; k < 3; ++k)
-                w[r] += given_.map[a][9 * r + 3 * j + k] * B[static_cast<int>(j)] * C[static_cast<int>(k)];
+                w[r] += given_.map[a][9 * r + 3 * j + k] * B[static_cast<int>(j)] * way[static_cast<int>(k)];
           add(H_[a], c, factor, w);
         }
       };

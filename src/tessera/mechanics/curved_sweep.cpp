@@ -82,8 +82,8 @@ struct CurvedStrains {
       store_fours({g[14], g[15], g[16], g[17]}, row, 14);
       for_unresolved(group, [&](Index lane, ThreeTensors& known) {
         for (int q = 0; q < 3; ++q) {
-          const auto column = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
-            return volume[lane] * Double4{x[lane], y[lane], z[lane], 0.0};
+          const auto column = [&](const Lanes& first, const Lanes& second, const Lanes& third) {
+            return volume[lane] * Double4{first[lane], second[lane], third[lane], 0.0};
           };
           known.k[q] = {column(Z[q].xx, Z[q].yx, Z[q].zx), column(Z[q].xy, Z[q].yy, Z[q].zy),
                         column(Z[q].xz, Z[q].yz, Z[q].zz)};
