@@ -1,5 +1,6 @@
 #include "tessera/dynamics/leapfrog.hpp"
 
+#include "tessera/base/fetch.hpp"
 #include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
@@ -15,10 +16,10 @@ Leapfrog::Leapfrog(const System& system, const Loads& loads, double damping, std
   reactions_.resize(constraints.size());
 }
 
-Double4 Leapfrog::free_kick(const State& state, const Forces& forces, double h, Index a) const {
+Double4 Leapfrog::free_kick(const State& state, const Double4* force, double h, Index a) const {
   const auto k = static_cast<std::size_t>(a);
   const double drag = 0.5 * damping_ * h;
-  return ((1.0 - drag) * state.v[k] + (h / mass_[k]) * forces.total()[k]) * (1.0 / (1.0 + drag));
+  return ((1.0 - drag) * state.v[k] + (h / mass_[k]) * force[k]) * (1.0 / (1.0 + drag));
 }
 
 Vec3 Leapfrog::constrained_velocity(const State& state, std::size_t i, double dt, const Vec3& free) const {
@@ -29,9 +30,10 @@ Vec3 Leapfrog::constrained_velocity(const State& state, std::size_t i, double dt
 }
 
 void Leapfrog::start(State& state, const Forces& forces, double dt) const {
+  const Double4* force = forces.total().data();
   parallel::for_each(system_.particles(), [&](std::int64_t a) {
     const auto k = static_cast<std::size_t>(a);
-    const Double4 acceleration = (1.0 / mass_[k]) * forces.total()[k] - damping_ * state.v[k];
+    const Double4 acceleration = (1.0 / mass_[k]) * force[k] - damping_ * state.v[k];
     state.v[k] -= (0.5 * dt) * acceleration;
   });
   for (std::size_t i = 0; i < system_.d.constraints.size(); ++i) {
@@ -50,7 +52,8 @@ void Leapfrog::prepare(const State& state, const Forces& forces, StepPair dt) {
       reactions_[i] = c.D * to_vec3(forces.total()[k]);
       continue;
     }
-    next_velocity_[i] = constrained_velocity(state, i, dt.after, to_vec3(free_kick(state, forces, h, c.particle)));
+    next_velocity_[i] =
+        constrained_velocity(state, i, dt.after, to_vec3(free_kick(state, forces.total().data(), h, c.particle)));
     const Vec3 v_minus = to_vec3(state.v[k]), change = next_velocity_[i] - v_minus;
     const Vec3 needed = mass_[k] * ((1.0 / h) * change + (0.5 * damping_) * (v_minus + next_velocity_[i]));
     reactions_[i] = c.D * (to_vec3(forces.total()[k]) - needed);
@@ -59,12 +62,17 @@ void Leapfrog::prepare(const State& state, const Forces& forces, StepPair dt) {
 
 void Leapfrog::step(State& state, const Forces& forces, StepPair dt) const {
   const double h = dt.middle();
-  parallel::for_each(system_.particles(), [&](std::int64_t a) {
-    const auto k = static_cast<std::size_t>(a);
-    state.v[k] = free_kick(state, forces, h, static_cast<Index>(a));
-    if (!constraint_of_.empty() && constraint_of_[k] >= 0)
-      state.v[k] = to_kernel(next_velocity_[static_cast<std::size_t>(constraint_of_[k])]);
-    state.x[k] += dt.after * state.v[k];
+  forces.for_ranges_of_total([&](Index first, Index last, const Double4* force) {
+    for (Index a = first; a < last; ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      fetch_to_write<2048>(&state.v[k]);
+      fetch_to_write<2048>(&state.x[k]);
+      fetch_ahead<1024>(&mass_[k]);
+      state.v[k] = free_kick(state, force, h, a);
+      if (!constraint_of_.empty() && constraint_of_[k] >= 0)
+        state.v[k] = to_kernel(next_velocity_[static_cast<std::size_t>(constraint_of_[k])]);
+      state.x[k] += dt.after * state.v[k];
+    }
   });
 }
 
@@ -72,7 +80,7 @@ Vec3 Leapfrog::velocity(const State& state, const Forces& forces, StepPair dt, I
   const auto k = static_cast<std::size_t>(a);
   const bool constrained = !constraint_of_.empty() && constraint_of_[k] >= 0;
   const Vec3 v_plus = constrained ? next_velocity_[static_cast<std::size_t>(constraint_of_[k])]
-                                  : to_vec3(free_kick(state, forces, dt.middle(), a));
+                                  : to_vec3(free_kick(state, forces.total().data(), dt.middle(), a));
   const Vec3 v_minus = to_vec3(state.v[k]);
   if (dt.middle() == 0.0) return v_minus;
   return v_minus + (dt.before / (dt.before + dt.after)) * (v_plus - v_minus);

@@ -69,11 +69,15 @@ struct QuadBonds {
 /// Writes the sums of quad q.
 inline void keep(const ContactTile& c, Index q, const BondSums<Double4>& sums) {
   const std::uint16_t* order = c.order + quad * q;
+  fetch_ahead<1024>(order);
+  fetch_ahead<1024>(c.volume + quad * q);
+  fetch_to_write<2048>(c.f_own + quad * q);
+  fetch_to_write<2112>(c.f_own + quad * q);
   const Double4 share = -0.5 / Double4{c.volume[order[0]], c.volume[order[1]], c.volume[order[2]], c.volume[order[3]]};
   const FourVectors force = transposed(sums.force), T0 = transposed(share * sums.moment_0),
                     T1 = transposed(share * sums.moment_1), T2 = transposed(share * sums.moment_2);
-  const Index lanes = std::min(quad, c.tile.size() - quad * q);
-  for (Index lane = 0; lane < lanes; ++lane) {
+  // Backwards: lanes that fill up the last quad repeat its last particle and come before it.
+  for (Index lane = quad; lane-- > 0;) {
     c.f_own[order[lane]] = force.v[lane];
     c.T[order[lane]] = {T0.v[lane], T1.v[lane], T2.v[lane]};
   }

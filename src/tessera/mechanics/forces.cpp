@@ -42,7 +42,9 @@ void Forces::evaluate(State& state, const ExternalAction& action, double dt) {
                         .viscous = system_.viscosity.empty() ? nullptr : &viscous_,
                         .dt = dt};
   sums_ = forces_.find(*integration_, task, scratches_, reactions_);
-  finish(state, action);
+  add_tractions(state, action);
+  gravity_ = action.gravity;
+  incomplete_ = true;
 }
 
 void Forces::restore_previous_deformation(Field<Tensor> F) {
@@ -61,19 +63,19 @@ void Forces::strain(State& state, const ExternalAction& action) {
   add_boundary_strain(s, state.x.data(), F_.data());
 }
 
-/// Adds tractions, what other tiles have done, and gravity.
-void Forces::finish(const State& state, const ExternalAction& action) {
-  const System& s = system_;
+void Forces::add_tractions(const State& state, const ExternalAction& action) {
   Field<Double4>& f = forces_.f();
-  if (action.following != nullptr) follow_faces(s, state.x.data(), F_.data(), *action.following);
+  if (action.following != nullptr) follow_faces(system_, state.x.data(), F_.data(), *action.following);
   for (const NodalForce& l : action.tractions) f[static_cast<std::size_t>(l.particle)] += to_kernel(l.force);
-  const Double4 g = to_kernel(action.gravity);
-  parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
-    const auto first = static_cast<Index>(begin), last = static_cast<Index>(end);
-    forces_.collect(first, last);
-    if (action.gravity == Vec3{}) return;
-    for (Index a = first; a < last; ++a) f[static_cast<std::size_t>(a)] += s.mass[static_cast<std::size_t>(a)] * g;
-  });
+}
+
+/// Adds what other tiles have done, and gravity.
+void Forces::complete(Index first, Index last) const {
+  forces_.collect(first, last);
+  if (gravity_ == Vec3{}) return;
+  const Double4 g = to_kernel(gravity_);
+  for (Index a = first; a < last; ++a)
+    forces_.f()[static_cast<std::size_t>(a)] += system_.mass[static_cast<std::size_t>(a)] * g;
 }
 
 /// The stresses of the last evaluation once more: without bonds, the state's history being what it has found.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include "tessera/mechanics/state.hpp"
 #include "tessera/mechanics/stress_forces.hpp"
 #include "tessera/mechanics/stress_integration.hpp"
+#include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
 
@@ -36,7 +39,16 @@ class Forces {
   const Field<PlasticState>& plastic() const { return history_after_; }
   Index stress_points() const { return system_.stress_points; }
 
-  const Field<Double4>& total() const { return forces_.f(); }  // [N], reactions on constrained particles left out
+  /// [N], reactions on constrained particles left out. What evaluate() leaves for the end is added when somebody asks.
+  const Field<Double4>& total() const {
+    if (incomplete_) for_ranges_of_total([](Index, Index, const Double4*) {});
+    return forces_.f();
+  }
+  /// Calls body(first, last, total) for ranges of particles, in parallel, each right after its forces are complete:
+  /// they are still in the cache.
+  template <class Body>
+  void for_ranges_of_total(Body&& body) const;
+
   const Field<Tensor>& deformation_gradient() const { return F_; }
   /// The deformation that the law sees at particle a: F_a, or with the mean change of volume around it.
   Mat3 law_deformation(std::size_t a) const { return integration_->law_deformation(a, F_[a]); }
@@ -63,19 +75,35 @@ class Forces {
 
  private:
   void strain(State& state, const ExternalAction& action);
-  void finish(const State& state, const ExternalAction& action);
+  void add_tractions(const State& state, const ExternalAction& action);
+  void complete(Index first, Index last) const;
   StressTask once_more(const State& state, const CellReport& report) const;
 
   const System& system_;
   mutable StressIntegration::Scratches scratches_;
   std::unique_ptr<StressIntegration> integration_;
   Field<Tensor> F_;
-  StressForces forces_;
+  mutable StressForces forces_;
+  Vec3 gravity_;
+  mutable std::atomic<bool> incomplete_{false};  // rims are to be collected, gravity is to be added
+  mutable std::mutex completing_;
   std::vector<Vec3> reactions_;
   ViscousMemory viscous_;
   Flow flow_;
   Field<PlasticState> history_after_;
   StressSums sums_;
 };
+
+template <class Body>
+void Forces::for_ranges_of_total(Body&& body) const {
+  const std::lock_guard lock(completing_);
+  const bool incomplete = incomplete_;
+  parallel::for_ranges(0, system_.particles(), [&](std::int64_t begin, std::int64_t end) {
+    const auto first = static_cast<Index>(begin), last = static_cast<Index>(end);
+    if (incomplete) complete(first, last);
+    body(first, last, forces_.f().data());
+  });
+  incomplete_ = false;
+}
 
 }  // namespace tessera

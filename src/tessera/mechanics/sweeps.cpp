@@ -35,7 +35,10 @@ TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Ten
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
   const Index* rim = s.tiles.rim.data() + tile.rim;
   Double4* __restrict x_local = scratch.x.data();
-  for (Index a = 0; a < own; ++a) x_local[a] = x[tile.begin + a];
+  for (Index a = 0; a < own; ++a) {
+    fetch_ahead<2048>(x + tile.begin + a);
+    x_local[a] = x[tile.begin + a];
+  }
   for (Index i = 0; i < rim_size; ++i) {
     fetch(x + rim[std::min(i + lookahead, rim_size - 1)]);
     x_local[own + i] = x[rim[i]];
@@ -47,41 +50,63 @@ TESSERA_KERNEL void strain_sweep(const System& s, Index k, const Double4* x, Ten
   const double* volume = s.d.volume.data() + tile.begin;
   Tensor* __restrict F_own = F + tile.begin;
   for (Index q = 0; q < tile.quads(); ++q, order += quad) {
-    const Double4 x_a[quad] = {x_local[order[0]], x_local[order[1]], x_local[order[2]], x_local[order[3]]};
-    Columns VF[quad]{};
+    const auto x_of = [&](Index lane) { return x_local[order[lane]]; };
+    const Double4 x_0 = x_of(0), x_1 = x_of(1), x_2 = x_of(2), x_3 = x_of(3);
+    Columns VF_0{}, VF_1{}, VF_2{}, VF_3{};  // by name: the compiler would keep an array in memory
     for (Index i = 0; i < length[q]; ++i, neighbour += quad, B += quad) {
       fetch_ahead<1536>(B);
       fetch_ahead<1600>(B);
       fetch_ahead<512>(neighbour);
-      for (Index lane = 0; lane < quad; ++lane) add_outer(VF[lane], x_local[neighbour[lane]] - x_a[lane], B[lane]);
+      add_outer(VF_0, x_local[neighbour[0]] - x_0, B[0]);
+      add_outer(VF_1, x_local[neighbour[1]] - x_1, B[1]);
+      add_outer(VF_2, x_local[neighbour[2]] - x_2, B[2]);
+      add_outer(VF_3, x_local[neighbour[3]] - x_3, B[3]);
     }
+    fetch_ahead<1024>(order);
+    fetch_ahead<1024>(volume + quad * q);
     for (Index line = 0; line < 5; ++line)
       fetch_to_write<6912>(reinterpret_cast<const char*>(F_own + quad * q) + 64 * line);
-    const Index lanes = std::min(quad, own - quad * q);
-    for (Index lane = 0; lane < lanes; ++lane) store(F_own[order[lane]], (1.0 / volume[order[lane]]) * VF[lane]);
+    const auto keep = [&](Index lane, const Columns& VF) {
+      store(F_own[order[lane]], (1.0 / volume[order[lane]]) * VF);
+    };
+    // Backwards: lanes that fill up the last quad repeat its last particle and come before it.
+    keep(3, VF_3), keep(2, VF_2), keep(1, VF_1), keep(0, VF_0);
   }
 }
 
 namespace {
 
-/// Tensor k of four.
-inline Columns columns_of(const Lanes9& t, int k) {
-  return {Double4{t.xx[k], t.yx[k], t.zx[k], 0.0}, Double4{t.xy[k], t.yy[k], t.zy[k], 0.0},
-          Double4{t.xz[k], t.yz[k], t.zz[k], 0.0}};
-}
+/// Where the stresses of a tile's own particles go.
+struct StressTarget {
+  explicit StressTarget(TileScratch& scratch)
+      : T(scratch.T.data()), P(scratch.P.empty() ? nullptr : scratch.P.data()) {}
 
-/// Adds the elastic and viscous stress of the tile's own particle to T, or puts it where it goes another way.
-inline void take_stress(TileScratch& scratch, Index local, const Columns& P) {
-  const auto k = static_cast<std::size_t>(local);
-  if (scratch.P.empty())
-    scratch.T[k] = scratch.T[k] + P;
-  else
-    scratch.P[k] = P;
+  /// Adds an elastic stress to T, or puts it where it goes another way.
+  void take(Index local, const Columns& stress) const {
+    if (P == nullptr)
+      T[local] = T[local] + stress;
+    else
+      P[local] = stress;
+  }
+  Columns& at(Index local) const { return P == nullptr ? T[local] : P[local]; }
+
+  Columns* __restrict T;
+  Columns* __restrict P;
+};
+
+/// Adds the viscous stresses of a tile's own particles, if there are any; returns their work [J].
+double add_viscous_stresses(const System& s, const Tile& tile, const Tensor* F, ViscousMemory* viscous, double dt,
+                            const StressTarget& target) {
+  double work = 0.0;
+  if (viscous == nullptr || dt <= 0.0) return work;
+  for (Index a = tile.begin; a < tile.end; ++a)
+    work += add_viscous_stress(s, a, F[a], *viscous, dt, target.at(a - tile.begin));
+  return work;
 }
 
 template <class Law>
-inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, const Tensor* F,
-                            const HistorySpan& history, ViscousMemory* viscous, double dt, TileScratch& scratch) {
+inline StressSums elastic_stresses(const System& s, const Tile& tile, const Law& law, const Tensor* F,
+                                   const HistorySpan& history, const StressTarget& target) {
   const double* volume = s.d.volume.data();
   StressSums sums;
   Double4 smallest_J{};
@@ -94,13 +119,12 @@ inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, c
         response(law, to_lanes(F[at(0)], F[at(1)], F[at(2)], F[at(3)]), history.lanes({at(0), at(1), at(2), at(3)}));
     smallest_J = smallest_J < response_4.J ? smallest_J : response_4.J;
     not_finite += response_4.J - response_4.J;
+    const FourColumns P_4 = columns_of(response_4.stress);
     for (Index lane = 0; lane < lanes; ++lane) {
-      const Index a = first + lane, local = a - tile.begin;
+      const Index a = first + lane;
       sums.internal += volume[a] * response_4.energy[lane];
       if constexpr (HasHistory<Law>) sums.dissipated += volume[a] * response_4.dissipated[lane];
-      Columns P = columns_of(response_4.stress, lane);
-      if (viscous != nullptr && dt > 0.0) sums.dissipated += add_viscous_stress(s, a, F[a], *viscous, dt, P);
-      take_stress(scratch, local, P);
+      target.take(a - tile.begin, P_4.t[lane]);
     }
   }
   sums.smallest_J = std::min(std::min(smallest_J[0], smallest_J[1]), std::min(smallest_J[2], smallest_J[3]));
@@ -111,9 +135,8 @@ inline StressSums stress_of(const System& s, const Tile& tile, const Law& law, c
 // One clone of each law for every instruction set.
 #define TESSERA_STRESS_KERNEL(Law)                                                                            \
   TESSERA_KERNEL StressSums stress_kernel(const System& s, const Tile& tile, const Law& law, const Tensor* F, \
-                                          const HistorySpan& history, ViscousMemory* viscous, double dt,      \
-                                          TileScratch& scratch) {                                             \
-    return stress_of(s, tile, law, F, history, viscous, dt, scratch);                                         \
+                                          const HistorySpan& history, const StressTarget& target) {           \
+    return elastic_stresses(s, tile, law, F, history, target);                                                \
   }
 TESSERA_STRESS_KERNEL(NeoHookean)
 TESSERA_STRESS_KERNEL(SaintVenantKirchhoff)
@@ -127,19 +150,20 @@ TESSERA_STRESS_KERNEL(J2Plasticity)
 StressSums stress_sweep(const System& s, Index k, const Tensor* F, const HistorySpan& history, ViscousMemory* viscous,
                         double dt, TileScratch& scratch) {
   const Tile& tile = tile_of(s, k);
-  return visit_law(s.materials[static_cast<std::size_t>(tile.material)].law, history.flow,
-                   [&](const auto& law) { return stress_kernel(s, tile, law, F, history, viscous, dt, scratch); });
+  const StressTarget target(scratch);
+  StressSums sums = visit_law(s.materials[static_cast<std::size_t>(tile.material)].law, history.flow,
+                              [&](const auto& law) { return stress_kernel(s, tile, law, F, history, target); });
+  sums.dissipated += add_viscous_stresses(s, tile, F, viscous, dt, target);
+  return sums;
 }
 
 StressSums known_stress_sweep(const System& s, Index k, const Tensor* F, const Tensor* P, ViscousMemory* viscous,
                               double dt, TileScratch& scratch) {
   const Tile& tile = tile_of(s, k);
+  const StressTarget target(scratch);
+  for (Index a = tile.begin; a < tile.end; ++a) target.take(a - tile.begin, to_kernel(P[a]));
   StressSums sums;
-  for (Index a = tile.begin; a < tile.end; ++a) {
-    Columns P_a = to_kernel(P[a]);
-    if (viscous != nullptr && dt > 0.0) sums.dissipated += add_viscous_stress(s, a, F[a], *viscous, dt, P_a);
-    take_stress(scratch, a - tile.begin, P_a);
-  }
+  sums.dissipated = add_viscous_stresses(s, tile, F, viscous, dt, target);
   return sums;
 }
 
@@ -163,8 +187,15 @@ TESSERA_KERNEL void force_sweep(const System& s, Index k, const Columns* T, cons
     return sum_0 + sum_1 + sum_2;
   };
   Double4* __restrict f_own = f + tile.begin;
-  for (Index a = 0; a < own; ++a) f_own[a] -= received(count[a]) + apply(T[a], B_aa[tile.begin + a]);
-  for (Index i = 0; i < rim_size; ++i) rim_f[tile.rim + i] = -received(count[own + i]);
+  for (Index a = 0; a < own; ++a) {
+    fetch_ahead<1024>(count + a);
+    fetch_ahead<1536>(B_aa + tile.begin + a);
+    f_own[a] -= received(count[a]) + apply(T[a], B_aa[tile.begin + a]);
+  }
+  for (Index i = 0; i < rim_size; ++i) {
+    fetch_to_write<2048>(rim_f + tile.rim + i);
+    rim_f[tile.rim + i] = -received(count[own + i]);
+  }
 }
 
 void collect_rims(const Tiles& tiles, const Double4* rim_f, Double4* f, Index begin, Index end) {
@@ -172,6 +203,8 @@ void collect_rims(const Tiles& tiles, const Double4* rim_f, Double4* f, Index be
   const Offset last = tiles.rim_offset[static_cast<std::size_t>(end)] - 1;
   for (Index a = begin; a < end; ++a) {
     const auto k = static_cast<std::size_t>(a);
+    fetch_to_write<2048>(f + a);
+    fetch_ahead<1024>(tiles.rim_offset.data() + k);
     Double4 force = f[a];
     for (Offset i = tiles.rim_offset[k]; i < tiles.rim_offset[k + 1]; ++i) {
       fetch(rim_f + place[std::min(i + 2 * lookahead, last)]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tessera/base/fetch.hpp"
 #include "tessera/mechanics/sweeps.hpp"
 
 // What the kernels of the sweeps share: values of a tile and its rim by local numbers, four particles at a time.
@@ -30,23 +31,6 @@ inline bool has_wide_registers() {
 
 // How far ahead values of the rim are fetched: their addresses jump, so the processor cannot foresee them.
 constexpr Index lookahead = 8;
-template <class T>
-inline void fetch(const T* value) {
-  const char* first = reinterpret_cast<const char*>(value);
-  __builtin_prefetch(first);
-  if constexpr (sizeof(T) > 64) __builtin_prefetch(first + sizeof(T) - 1);
-}
-
-/// Fetches what follows in an array that is streamed: the processor's own prefetcher stops at pages, and gives way to
-/// what waits for other data.
-template <Offset bytes, class T>
-inline void fetch_ahead(const T* now) {
-  __builtin_prefetch(reinterpret_cast<const char*>(now) + bytes);
-}
-template <Offset bytes, class T>
-inline void fetch_to_write(const T* now) {
-  __builtin_prefetch(reinterpret_cast<const char*>(now) + bytes, 1);
-}
 
 inline const Tile& tile_of(const System& s, Index tile) { return s.tiles.tiles[static_cast<std::size_t>(tile)]; }
 
@@ -54,7 +38,9 @@ inline const Tile& tile_of(const System& s, Index tile) { return s.tiles.tiles[s
 inline void store(Tensor& to, const Columns& t) {
   __builtin_memcpy(to.m, &t.c0, sizeof(Double4));
   __builtin_memcpy(to.m + 3, &t.c1, sizeof(Double4));
-  __builtin_memcpy(to.m + 6, &t.c2, 3 * sizeof(double));
+  const Double2 most = __builtin_shufflevector(t.c2, t.c2, 0, 1);
+  __builtin_memcpy(to.m + 6, &most, sizeof most);
+  to.m[8] = t.c2[2];
 }
 
 /// Copies what sweeps need of the tile and its rim.

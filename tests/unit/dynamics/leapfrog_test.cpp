@@ -2,6 +2,7 @@
 
 #include "sample.hpp"
 #include "tessera/dynamics/ledger.hpp"
+#include "tessera/parallel/parallel.hpp"
 
 namespace tessera::test {
 namespace {
@@ -50,6 +51,41 @@ struct Swing {
     return projection / size;
   }
 };
+
+/// Where a body under gravity is after some steps; `look` is called with the forces before each.
+template <class Look>
+Field<Double4> positions_after_steps(const System& s, Look&& look) {
+  const Loads loads;
+  State state = reference_state(s);
+  for (std::size_t a = 0; a < s.d.X.size(); ++a) state.v[a] = to_kernel(Vec3{s.d.X[a].y, -s.d.X[a].x, s.d.X[a].x});
+  Forces forces(s);
+  const Leapfrog leapfrog(s, loads, 0.0);
+  constexpr double dt = 1e-4;
+  for (int k = 0; k < 3; ++k) {
+    forces.evaluate(state, {{}, {}, {0.0, 0.0, -9.81}}, dt);
+    look(forces);
+    leapfrog.step(state, forces, {dt, dt});
+  }
+  return state.x;
+}
+
+TEST(LeapfrogSteps, AreAlikeWhetherForcesAreCompletedBeforeOrOnTheWay) {
+  const System s = system_of(discretize(Method::consistent, box({1, 1, 1}), {12, 12, 12}, 0.2, 3, nothing), rubber());
+  ASSERT_GT(s.tiles.rim.size(), 0U);
+  const auto on_the_way = positions_after_steps(s, [](const Forces&) {});
+  const auto before = positions_after_steps(s, [](const Forces& forces) { forces.total(); });
+  const auto within_a_loop = positions_after_steps(s, [&](const Forces& forces) {
+    std::vector<double> seen(s.d.X.size());
+    parallel::for_each(s.particles(), [&](std::int64_t a) {
+      seen[static_cast<std::size_t>(a)] = forces.total()[static_cast<std::size_t>(a)][0];
+    });
+    for (std::size_t a = 0; a < seen.size(); ++a) ASSERT_EQ(seen[a], forces.total()[a][0]);
+  });
+  for (std::size_t a = 0; a < s.d.X.size(); ++a) {
+    EXPECT_EQ(to_vec3(on_the_way[a]), to_vec3(before[a]));
+    EXPECT_EQ(to_vec3(on_the_way[a]), to_vec3(within_a_loop[a]));
+  }
+}
 
 TEST(LeapfrogSteps, AreOfSecondOrderOnOneMode) {
   const Swing swing;
