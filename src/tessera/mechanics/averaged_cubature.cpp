@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tessera/mechanics/cubature.hpp"
+#include "tessera/mechanics/isochoric_cubature.hpp"
 #include "tessera/mechanics/tile_nodes.hpp"
 #include "tessera/parallel/parallel.hpp"
 
@@ -43,41 +43,6 @@ struct FourCells {
   }
 };
 
-/// What the points say about four cells, per volume: the stresses of a fixed Jbar.
-struct IsochoricStress {
-  CubatureStress<Double4> sums;
-  Double4 p{};  // mean over the points of P(Fbar) : Fbar / (3 Jbar) [Pa]
-};
-
-template <class Law>
-inline IsochoricStress isochoric_stress(const Law& law, const Lanes9& F, const Lanes9 (&E)[3], const Double4& Jbar,
-                                        const FourCells& cells, const HistorySpan& history) {
-  constexpr double sixth = 1.0 / stress_points_of_a_cell;
-  IsochoricStress c;
-  c.sums.smallest_J += std::numeric_limits<double>::infinity();
-  for (int k = 0; k < stress_points_of_a_cell; ++k) {
-    const Double4 sign = Double4{} + (k % 2 == 0 ? 1.0 : -1.0);
-    Lanes9 point = F, Fbar, stress;
-    add(point, sign, E[k / 2]);
-    const Lanes9 cof = cofactor(point);
-    const Double4 J = point.xx * cof.xx + point.xy * cof.xy + point.xz * cof.xz;
-    const Double4 scale = exp((1.0 / 3.0) * log(Jbar / J));
-    add(Fbar, scale, point);
-    const LanesResponse answer = response(law, Fbar, cells.history(history, k));
-    const Double4 three_p = contract(answer.stress, Fbar);
-    add(stress, scale, answer.stress);
-    add(stress, (-1.0 / 3.0) * three_p / J, cof);
-    add(c.sums.mean, Double4{} + sixth, stress);
-    add(c.sums.moment[k / 2], sixth * sign, stress);
-    c.p += (sixth / 3.0) * three_p / Jbar;
-    c.sums.energy += sixth * answer.energy;
-    c.sums.dissipated += sixth * answer.dissipated;
-    c.sums.smallest_J = c.sums.smallest_J < J ? c.sums.smallest_J : J;
-    c.sums.not_finite += J - J;
-  }
-  return c;
-}
-
 template <class Law>
 inline StressSums points_of(const Law& law, Index begin, Index end, const PointArrays& arrays,
                             const HistorySpan& history, const CellReport& report) {
@@ -90,8 +55,9 @@ inline StressSums points_of(const Law& law, Index begin, Index end, const PointA
     for (int q = 0; q < 3; ++q)
       E[q] = to_lanes(arrays.E[a[0]].k[q], arrays.E[a[1]].k[q], arrays.E[a[2]].k[q], arrays.E[a[3]].k[q]);
     const Double4 Jbar{arrays.Jbar[a[0]], arrays.Jbar[a[1]], arrays.Jbar[a[2]], arrays.Jbar[a[3]]};
-    const IsochoricStress c = isochoric_stress(
-        law, to_lanes(arrays.F[a[0]], arrays.F[a[1]], arrays.F[a[2]], arrays.F[a[3]]), E, Jbar, cells, history);
+    const IsochoricStress<Double4> c =
+        isochoric_stress(law, to_lanes(arrays.F[a[0]], arrays.F[a[1]], arrays.F[a[2]], arrays.F[a[3]]), E, Jbar,
+                         [&](int point) { return cells.history(history, point); });
     const FourColumns mean = columns_of(c.sums.mean),
                       moment[3] = {columns_of(c.sums.moment[0]), columns_of(c.sums.moment[1]),
                                    columns_of(c.sums.moment[2])};
@@ -129,19 +95,6 @@ TESSERA_POINTS_KERNEL(J2Plasticity)
 /// (1/3) sum_q cof E_q: the mean of cof(F +- E_q) over the points less cof F.
 Mat3 mean_cofactor(const ThreeTensors& E) {
   return (1.0 / 3.0) * (cofactor(to_mat3(E.k[0])) + cofactor(to_mat3(E.k[1])) + cofactor(to_mat3(E.k[2])));
-}
-
-/// Calls body(b, C_ab / r^2) for the neighbours b with a common face, C_ab being the way between centroids.
-template <class Body>
-void for_each_neighbour(const System& s, std::size_t a, Body&& body) {
-  const std::vector<Vec3>& C = s.d.measure->centroid;
-  const VolumeAverage& rows = *s.average;
-  for (auto i = static_cast<std::size_t>(rows.offset[a]); i < static_cast<std::size_t>(rows.offset[a + 1]); ++i) {
-    if (rows.weight[i] == 0.0) continue;
-    const auto b = static_cast<std::size_t>(rows.neighbour[i]);
-    const Vec3 c = C[b] - C[a];
-    body(b, (1.0 / norm2(c)) * c);
-  }
 }
 
 }  // namespace
@@ -199,43 +152,6 @@ void AveragedCubature::add_pressures(const Tensor* F, ThreeTensors* points) {
 Mat3 AveragedCubature::law_deformation(std::size_t a, const Tensor& F) const {
   const Mat3 F_a = to_mat3(F);
   return std::cbrt(mean_[a] / determinant(F_a)) * F_a;
-}
-
-StressSums AveragedCells::evaluate(const Tensor* F, const HistorySpan& history, const CellReport& report) {
-  find_points(F);
-  const StressSums sums = cubature_.evaluate(F, points_.data(), history, report);
-  return_moments();
-  return sums;
-}
-
-/// E_q = sum_b (F_b - F_a) (C_ab . A_a e_q) / r^2.
-void AveragedCells::find_points(const Tensor* F) {
-  parallel::for_each(s_.particles(), [&](std::int64_t i) {
-    const auto a = static_cast<std::size_t>(i);
-    const Mat3 to_points = transpose(s_.gradients->to_points[a]);
-    const Columns F_a = to_kernel(F[a]);
-    ThreeTensors E{};
-    for_each_neighbour(s_, a, [&](std::size_t b, const Vec3& w) {
-      const Vec3 share = to_points * w;
-      const Columns difference = to_kernel(F[b]) + -1.0 * F_a;
-      for (int q = 0; q < 3; ++q) E.k[q] = E.k[q] + share[q] * difference;
-    });
-    points_[a] = E;
-  });
-}
-
-/// T_a = P_a + (1/V_a) sum_b sum_k (C_ba,k Z'_bk - C_ab,k Z'_ak) / r^2 with Z'_ak = sum_q A_a,kq Z_aq.
-void AveragedCells::return_moments() {
-  parallel::for_each(s_.particles(), [&](std::int64_t i) {
-    const auto a = static_cast<std::size_t>(i);
-    const Mat3 to_points = transpose(s_.gradients->to_points[a]);
-    Columns sum{};
-    for_each_neighbour(s_, a, [&](std::size_t b, const Vec3& w) {
-      const Vec3 mine = to_points * w, theirs = transpose(s_.gradients->to_points[b]) * w;
-      for (int q = 0; q < 3; ++q) sum = sum + -theirs[q] * points_[b].k[q] + -mine[q] * points_[a].k[q];
-    });
-    T_[a] = to_tensor(to_kernel(cubature_.P()[a]) + (1.0 / s_.d.volume[a]) * sum);
-  });
 }
 
 }  // namespace tessera

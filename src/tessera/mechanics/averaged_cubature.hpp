@@ -37,25 +37,4 @@ class AveragedCubature {
   Field<ThreeTensors> moments_;  // V_a dU/dE_q without the mean of p [J]
 };
 
-/// The same for cell integration, where the E_q follow from the neighbours' F (theory, section 11).
-class AveragedCells {
- public:
-  explicit AveragedCells(const System& s) : s_(s), cubature_(s), points_(s.d.X.size()), T_(s.d.X.size()) {}
-
-  StressSums evaluate(const Tensor* F, const HistorySpan& history, const CellReport& report);
-
-  /// The derivative of the energy by F_a over V_a: the mean stress, and what the moments do to the neighbours' F [Pa].
-  const Tensor* T() const { return T_.data(); }
-  Mat3 law_deformation(std::size_t a, const Tensor& F) const { return cubature_.law_deformation(a, F); }
-
- private:
-  void find_points(const Tensor* F);
-  void return_moments();
-
-  const System& s_;
-  AveragedCubature cubature_;
-  Field<ThreeTensors> points_;
-  Field<Tensor> T_;
-};
-
 }  // namespace tessera

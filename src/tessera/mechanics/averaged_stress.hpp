@@ -22,19 +22,14 @@ class AveragedStress {
 
   const Tensor* P() const { return P_.data(); }  // [Pa]
   /// Fbar_a, the deformation that the law has seen at particle a in the last evaluation.
-  Mat3 law_deformation(std::size_t a, const Tensor& F) const { return scale_[a] * to_mat3(F); }
+  Mat3 law_deformation(std::size_t a, const Tensor& F) const;
 
  private:
-  template <class Law>
-  StressSums respond(const Law& law, Index begin, Index end, const Tensor* F, const HistorySpan& history);
-  void volume_changes(const Tensor* F);
-  void add_pressures(const Tensor* F);
-
   const System& s_;
-  std::vector<double> J_;
-  std::vector<double> p_;  // P(Fbar_a) : Fbar_a / (3 Jbar_a), the mean Cauchy stress that the law has given [Pa]
-  std::vector<double> once_, mean_;
-  std::vector<double> scale_;  // (Jbar_a / J_a)^(1/3)
+  std::vector<double> J_, Jbar_;  // of particles, and its mean over the neighbours
+  std::vector<double> p_, pbar_;  // P(Fbar_a) : Fbar_a / (3 Jbar_a), the mean Cauchy stress that the law has given
+                                  // [Pa], and its mean
+  std::vector<double> once_;
   Field<Tensor> P_;
 };
 

@@ -1,4 +1,6 @@
-#include "tessera/mechanics/averaged_cubature.hpp"
+#include <cmath>
+
+#include "tessera/mechanics/averaged_cells.hpp"
 #include "tessera/mechanics/stress_forces.hpp"
 #include "tessera/mechanics/stress_integration.hpp"
 #include "tessera/mechanics/tile_nodes.hpp"
@@ -24,9 +26,8 @@ class CellIntegration : public StressIntegration {
     return sum_tiles(s_, scratches_, [&](Index tile, TileScratch& scratch) {
       const double contact = add_tile_bonds(s_, tile, task, scratch);
       if (task.bonds.f == nullptr) load_tile(s_, tile, task.x, task.F, scratch);
-      StressSums sums = cell_stress_sweep(
-          s_, tile, task.F, task.history, task.viscous, task.dt, scratch,
-          {stresses_apart() ? cells_.P.data() : cells_.T.data(), cells_.rim_energies.data()}, task.report);
+      StressSums sums = find_stresses(
+          task, tile, scratch, {stresses_apart() ? cells_.P.data() : cells_.T.data(), cells_.rim_energies.data()});
       sums.contact = contact;
       if (stresses_apart()) keep_contact_stress(tile, scratch);
       return sums;
@@ -42,6 +43,10 @@ class CellIntegration : public StressIntegration {
   }
 
  private:
+  virtual StressSums find_stresses(const StressTask& task, Index tile, TileScratch& scratch, const CellStress& stress) {
+    return cell_stress_sweep(s_, tile, task.F, task.history, task.viscous, task.dt, scratch, stress, task.report);
+  }
+
   bool stresses_apart() const { return !cells_.P.empty(); }
 
   void keep_contact_stress(Index tile, const TileScratch& scratch) {
@@ -65,27 +70,49 @@ class CellIntegration : public StressIntegration {
   CellMemory cells_;
 };
 
-/// The same where laws see the mean change of volume around a cell: elastic stresses are known first.
-class AveragedCellIntegration : public StressIntegration {
+/// The same where laws see the mean change of volume around a cell: the changes of volume of all cells and their
+/// pressures are known first.
+class AveragedCellIntegration : public CellIntegration {
  public:
-  AveragedCellIntegration(const System& s, Scratches& scratches) : StressIntegration(s, scratches), averaged_(s) {}
+  AveragedCellIntegration(const System& s, Scratches& scratches)
+      : CellIntegration(s, scratches), J_(s.d.X.size()), Jbar_(J_), p_(J_), pbar_(J_), once_(J_) {}
 
-  std::unique_ptr<StressIntegration> apart() const override { return cell_integration(s_, scratches_); }
-
-  StressSums gather(const StressTask& task) override { return averaged_.evaluate(task.F, task.history, task.report); }
-
-  StressSums stresses(const StressTask& task, Index tile, TileScratch& scratch) override {
-    const double contact = add_tile_bonds(s_, tile, task, scratch);
-    StressSums sums = known_stress_sweep(s_, tile, task.F, averaged_.T(), task.viscous, task.dt, scratch);
-    add_known_viscous_stress(s_, tile, task, scratch);
-    sums.contact = contact + add_tile_boundary_bonds(s_, tile, task, scratch);
-    return sums;
+  StressSums gather(const StressTask& task) override {
+    on_all_tiles(task, [&](Index tile, TileScratch& scratch) { volume_sweep(s_, tile, task.F, scratch, J_.data()); });
+    s_.average->mean_twice(J_, once_, Jbar_);
+    on_all_tiles(task, [&](Index tile, TileScratch& scratch) {
+      pressure_sweep(s_, tile, task.F, task.history, scratch, Jbar_.data(), p_.data());
+    });
+    s_.average->mean_twice(p_, once_, pbar_);
+    return CellIntegration::gather(task);
   }
 
-  Mat3 law_deformation(std::size_t a, const Tensor& F) const override { return averaged_.law_deformation(a, F); }
+  /// F_a with the mean change of volume that the law has seen in cell a.
+  Mat3 law_deformation(std::size_t a, const Tensor& F) const override {
+    const Mat3 F_a = to_mat3(F);
+    return std::cbrt(Jbar_[a] / determinant(F_a)) * F_a;
+  }
 
  private:
-  AveragedCells averaged_;
+  template <class Body>
+  void on_all_tiles(const StressTask& task, Body&& body) {
+    parallel::for_tasks(s_.tiles.size(), [&](std::int64_t k) {
+      const Scratches::Lease scratch(scratches_);
+      const auto tile = static_cast<Index>(k);
+      load_tile(s_, tile, task.x, task.F, *scratch);
+      body(tile, *scratch);
+    });
+  }
+
+  StressSums find_stresses(const StressTask& task, Index tile, TileScratch& scratch,
+                           const CellStress& stress) override {
+    return averaged_cell_stress_sweep(s_, tile, task.F, {Jbar_.data(), pbar_.data()}, task.history, task.viscous,
+                                      task.dt, scratch, stress, task.report);
+  }
+
+  std::vector<double> J_, Jbar_;  // of cells, and its mean over the neighbours
+  std::vector<double> p_, pbar_;  // mean Cauchy stress that the law gives in cells, and its mean [Pa]
+  std::vector<double> once_;
 };
 
 }  // namespace

@@ -123,6 +123,15 @@ inline void keep_stress(const CellTask& task, const CellGroup<Lanes>& group, con
     task.report.mean[begin + group.local[lane]] = to_tensor(mean.t[lane]);
 }
 
+/// The stresses at the points of a group; sources that know more than F and E have their own.
+template <class Source, class Law, class Lanes>
+inline CubatureStress<Lanes> point_stresses(const Source&, const CellTask& task, const Law& law,
+                                            const CellGroup<Lanes>& group, const Lanes9Of<Lanes>& F,
+                                            const Lanes9Of<Lanes> (&E)[3]) {
+  const Index begin = tile_of(task.s, task.tile).begin;
+  return cubature_stress(law, F, E, [&](int point) { return history_of_point(task.history, begin, group, point); });
+}
+
 template <class Lanes, class Law, class Source>
 inline StressSums cells_of(const CellTask& task, const Law& law, const Source& source) {
   const Tile& tile = tile_of(task.s, task.tile);
@@ -136,8 +145,7 @@ inline StressSums cells_of(const CellTask& task, const Law& law, const Source& s
     Lanes9Of<Lanes> E[3];
     variation.find(group, E);
     const Lanes9Of<Lanes> F = load_F(task.F + tile.begin, group);
-    const CubatureStress<Lanes> c =
-        cubature_stress(law, F, E, [&](int point) { return history_of_point(task.history, tile.begin, group, point); });
+    const CubatureStress<Lanes> c = point_stresses(source, task, law, group, F, E);
     smallest_J = smallest_J < c.smallest_J ? smallest_J : c.smallest_J;
     not_finite += c.not_finite;
     Lanes9Of<Lanes> total = c.mean;

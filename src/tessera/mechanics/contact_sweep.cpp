@@ -33,7 +33,7 @@ struct ContactTile {
 };
 
 /// Forces follow in the same pass over the tiles.
-bool forces_come_next(const System& s) { return !s.second_order && (!s.gradients || s.average); }
+bool forces_come_next(const System& s) { return !s.second_order && !s.gradients; }
 
 /// The bonds of a quad that come next.
 struct QuadBonds {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tessera/mechanics/tile_nodes.hpp"
 #include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
@@ -11,14 +12,35 @@ namespace {
 // Sums are then right to a per cent or so, even where volumes differ; what is missing stays with the particle itself.
 constexpr int scalings = 20;
 
+/// The means of consecutive particles. Four bonds at a time, since each sum would wait for the one before.
+TESSERA_KERNEL void mean_rows(const VolumeAverage& rows, std::size_t begin, std::size_t end,
+                              const double* __restrict value, double* __restrict mean) {
+  const Index* neighbour = rows.neighbour.data();
+  const double* weight = rows.weight.data();
+  for (std::size_t a = begin; a < end; ++a) {
+    const double own = value[a];
+    Offset i = rows.offset[a];
+    const Offset last = rows.offset[a + 1];
+    Double4 sums{};
+    for (; i + 4 <= last; i += 4) {
+      const Index* b = neighbour + i;
+      Double4 w;
+      __builtin_memcpy(&w, weight + i, sizeof w);
+      sums += w * (Double4{value[b[0]], value[b[1]], value[b[2]], value[b[3]]} - own);
+    }
+    double rest = 0.0;
+    for (; i < last; ++i) rest += weight[i] * (value[neighbour[i]] - own);
+    mean[a] = own + (sum(sums) + rest);
+  }
+}
+
 }  // namespace
 
 void VolumeAverage::mean_twice(const std::vector<double>& values, std::vector<double>& once,
                                std::vector<double>& mean_of_means) const {
   const auto pass = [&](const std::vector<double>& from, std::vector<double>& to) {
-    parallel::for_each(static_cast<std::int64_t>(from.size()), [&](std::int64_t i) {
-      const auto a = static_cast<std::size_t>(i);
-      to[a] = mean(a, from.data());
+    parallel::for_ranges(0, static_cast<std::int64_t>(from.size()), [&](std::int64_t begin, std::int64_t end) {
+      mean_rows(*this, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), from.data(), to.data());
     });
   };
   pass(values, once);

@@ -24,13 +24,6 @@ struct VolumeAverage {
   RawField<Index> neighbour;
   RawField<double> weight;  // M_ab / V_a of each bond
 
-  double mean(std::size_t a, const double* value) const {
-    double sum = value[a];
-    for (auto i = static_cast<std::size_t>(offset[a]); i < static_cast<std::size_t>(offset[a + 1]); ++i)
-      sum += weight[i] * (value[neighbour[i]] - value[a]);
-    return sum;
-  }
-
   /// The mean, taken twice: once leaves half of what alternates from layer to layer. `once` holds the first one.
   void mean_twice(const std::vector<double>& values, std::vector<double>& once,
                   std::vector<double>& mean_of_means) const;
