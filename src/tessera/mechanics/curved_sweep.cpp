@@ -138,7 +138,7 @@ StressSums curved_stress_sweep(const System& s, Index k, const Tensor* F, const 
                              tile.begin,
                              {first, last},
                              memory.unresolved.data() + (first - c.unresolved.begin())};
-  const Registers registers = widest_registers();
+  [[maybe_unused]] const Registers registers = widest_registers();
   return visit_law(s.materials[static_cast<std::size_t>(tile.material)].law, history.flow,
                    [&](const auto& law) { TESSERA_RUN_CELL_KERNEL(task, law, source, registers); });
 }
