@@ -33,8 +33,8 @@ std::optional<TimeToError> time_to_error(std::span<const AccuracyRow> rows, doub
   if (rows.size() < 2) return std::nullopt;
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (has_between(rows[i - 1], rows[i], error)) return on_line(rows[i - 1], rows[i], error);
-  const std::size_t first = rows[0].error <= error ? 0 : rows.size() - 2;
-  return on_line(rows[first], rows[first + 1], error);
+  if (rows[0].error <= error) return TimeToError{rows[0].seconds, false, true};
+  return on_line(rows[rows.size() - 2], rows.back(), error);
 }
 
 AccuracyForTime measure_accuracy(Formulation formulation, Integration integration) {

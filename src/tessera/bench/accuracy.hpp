@@ -24,12 +24,14 @@ struct AccuracyRow {
 /// How long a run takes that just has an error.
 struct TimeToError {
   double seconds = 0.0;
-  bool extrapolated = false;  // no two rows have the error between them
+  bool extrapolated = false;  // all rows err more
+  bool upper_bound = false;   // all rows err less, so the coarsest takes longer than needed
 };
 
 /// The time for an error, on a straight line in the logarithms of error and time: between two successive rows that have
-/// it between them, or else, with the order that they show, beyond the last two (all errors larger) or before the first
-/// two (all smaller). Nothing where those errors do not fall. Rows go from coarse to fine.
+/// it between them, or else, with the order that they show, beyond the last two (all errors larger); nothing where
+/// those errors do not fall. If all errors are smaller, the time of the first row: a coarser body might do as well, but
+/// what is too coarse to bend shows no order. Rows go from coarse to fine.
 std::optional<TimeToError> time_to_error(std::span<const AccuracyRow> rows, double error);
 
 /// What accuracy costs with one formulation and integration.

@@ -22,6 +22,7 @@ nlohmann::ordered_json accuracy_json(const AccuracyForTime& a) {
   if (!a.to_wanted_error) return j;
   j["seconds_to_wanted_error"] = a.to_wanted_error->seconds;
   j["extrapolated"] = a.to_wanted_error->extrapolated;
+  j["upper_bound"] = a.to_wanted_error->upper_bound;
   return j;
 }
 
@@ -49,8 +50,8 @@ std::string speed_table(const BenchReport& report) {
 std::string accuracy_conclusion(const AccuracyForTime& a) {
   const std::string start = fmt::format("{}, {}, {:g}% error:", a.formulation, a.integration, 100.0 * wanted_error);
   if (!a.to_wanted_error) return fmt::format("{} no estimate, the errors do not fall\n", start);
-  return fmt::format("{} {:.3g} s{}\n", start, a.to_wanted_error->seconds,
-                     a.to_wanted_error->extrapolated ? " (extrapolated)" : "");
+  return fmt::format("{} {}{:.3g} s{}\n", start, a.to_wanted_error->upper_bound ? "at most " : "",
+                     a.to_wanted_error->seconds, a.to_wanted_error->extrapolated ? " (extrapolated)" : "");
 }
 
 std::string accuracy_table(const std::vector<AccuracyForTime>& accuracy) {

@@ -42,13 +42,20 @@ TEST(TimeToError, TakesTheRowsAroundItEvenIfOthersHaveAnotherOrder) {
 }
 
 TEST(TimeToError, SaysWhenItIsExtrapolated) {
+  const auto time = time_to_error(std::vector<AccuracyRow>{row(4), row(8)}, 0.01);
+  ASSERT_TRUE(time);
+  EXPECT_NEAR(time->seconds, seconds_for(0.01), 1e-9 * seconds_for(0.01));
+  EXPECT_TRUE(time->extrapolated);
+  EXPECT_FALSE(time->upper_bound);
+}
+
+TEST(TimeToError, IsAtMostThatOfTheCoarsestBodyIfAllErrLess) {
   const std::vector<AccuracyRow> rows = {row(4), row(8)};
-  for (const double error : {0.01, 0.5}) {
-    const auto time = time_to_error(rows, error);
-    ASSERT_TRUE(time);
-    EXPECT_NEAR(time->seconds, seconds_for(error), 1e-9 * seconds_for(error));
-    EXPECT_TRUE(time->extrapolated);
-  }
+  const auto time = time_to_error(rows, 0.5);
+  ASSERT_TRUE(time);
+  EXPECT_EQ(time->seconds, rows[0].seconds);
+  EXPECT_TRUE(time->upper_bound);
+  EXPECT_FALSE(time->extrapolated);
 }
 
 TEST(TimeToError, IsUnknownWithoutAnOrder) {

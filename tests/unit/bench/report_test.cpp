@@ -85,6 +85,10 @@ TEST(BenchReport, TableSaysWhatIsExtrapolated) {
   BenchReport r = report();
   r.accuracy = {accuracy(TimeToError{42.0, false})};
   EXPECT_EQ(to_table(r).find("extrapolated"), std::string::npos);
+  EXPECT_EQ(to_table(r).find("at most"), std::string::npos);
+  r.accuracy = {accuracy(TimeToError{42.0, false, true})};
+  EXPECT_NE(to_table(r).find("at most 42 s"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(to_json(r)).at("accuracy_for_time").at(0).at("upper_bound"), true);
 }
 
 }  // namespace
