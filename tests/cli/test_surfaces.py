@@ -37,6 +37,18 @@ class Surfaces(CliTest):
         self.assertEqual((side["min"], side["max"]), ([0, 0, 0], [1, 1, 1]))
         self.assertRegex(self.check().stdout, r"block: surface +2.36603 +\d+ +4  \(0, 0, 0\), \(1, 1, 1\)\n")
 
+    def test_files_that_are_not_there(self):
+        self.write_case('{ file = "nowhere.stl", units = "m" }')
+        result = self.check()
+        self.assertEqual(result.returncode, GEOMETRY, result.stderr)
+        self.assertRegex(result.stderr, r"case\.toml:\d+:\d+: body\.0\.shape.*: .*nowhere\.stl: no such file")
+        text = CASE.replace(self.SHAPE + "\n", "").split("[[boundary]]")[0]
+        text = re.sub(r"particles = .*", 'particles = { mesh = "nowhere.msh" }', text)
+        (self.folder / "case.toml").write_text(text + '[method]\nformulation = "delaunay"\n[time]\nend = 1\n')
+        result = self.check()
+        self.assertEqual(result.returncode, GEOMETRY, result.stderr)
+        self.assertRegex(result.stderr, r"case\.toml:\d+:\d+: body\.0\.particles.*: .*nowhere\.msh: no such file")
+
     def test_split_angle(self):
         self.write_case('{ file = "part.off", units = "m", split_angle = 30 }')
         sides = json.loads(self.check("--json").stdout)["sides"]

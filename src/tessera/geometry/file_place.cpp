@@ -14,6 +14,12 @@ std::string locate(const std::string& path, PlaceUnit unit, std::int64_t place) 
   return unit == PlaceUnit::line ? fmt::format("{}:{}: ", path, place) : fmt::format("{}: byte {}: ", path, place);
 }
 
+void require_file(const std::string& path, const Origin& origin) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw GeometryError(describe(origin) + path + ": no such file; paths in a case file count from its folder");
+}
+
 std::string read_whole_file(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw GeometryError(path + ": cannot be read: it is a folder");

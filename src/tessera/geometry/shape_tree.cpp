@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "tessera/geometry/file_place.hpp"
 #include "tessera/geometry/shape_surface.hpp"
 #include "tessera/geometry/solid.hpp"
 #include "tessera/geometry/solid_surface.hpp"
@@ -57,7 +58,10 @@ class Builder {
 
   TriangleSurface leaf(const Shape& shape) {
     try {
-      if (const auto* file = std::get_if<SurfaceShape>(&shape.kind)) return of_file(*file);
+      if (const auto* file = std::get_if<SurfaceShape>(&shape.kind)) {
+        require_file(file->path, shape.origin);
+        return of_file(*file);
+      }
       if (const auto* cone = std::get_if<ConeShape>(&shape.kind)) return surface_of(*cone);
       if (const auto* ellipsoid = std::get_if<EllipsoidShape>(&shape.kind)) return surface_of(*ellipsoid);
       if (const auto* torus = std::get_if<TorusShape>(&shape.kind)) return surface_of(*torus);

@@ -3,6 +3,7 @@
 #include "tessera/discretization/cell_measure.hpp"
 #include "tessera/discretization/delaunay.hpp"
 #include "tessera/discretization/rows.hpp"
+#include "tessera/geometry/file_place.hpp"
 #include "tessera/geometry/surface_sides.hpp"
 #include "tessera/simulation/body_points.hpp"
 #include "tessera/simulation/body_surface.hpp"
@@ -54,7 +55,10 @@ TetrahedralMesh mesh_of(const Case& c, const BodySpec& body, const std::optional
         "method.tetrahedra = \"split\" splits lattices in boxes and polygons; any other shape is filled by a "
         "mesher");
   if (is_surface) return mesh_of_shape(body, notes);
-  if (const auto* file = std::get_if<MeshFileSpec>(&body.particles.source)) return read_mesh(file->path);
+  if (const auto* file = std::get_if<MeshFileSpec>(&body.particles.source)) {
+    require_file(file->path, body.particles.origin);
+    return read_mesh(file->path);
+  }
   return tetrahedralize(vertices_of(c, body, *solid), *solid, c.method.tetrahedra);
 }
 
