@@ -71,3 +71,13 @@ inline double stored_energy(const Law& law, const Mat3& F, const PlasticState* h
 }
 
 }  // namespace tessera
+
+// Write KERNEL(Law, ...) for every law, or for those that are InLanes: what is compiled once for each of them.
+#define TESSERA_FOR_EACH_LAW_IN_LANES(KERNEL, ...)        \
+  KERNEL(NeoHookean __VA_OPT__(, ) __VA_ARGS__)           \
+  KERNEL(SaintVenantKirchhoff __VA_OPT__(, ) __VA_ARGS__) \
+  KERNEL(MooneyRivlin __VA_OPT__(, ) __VA_ARGS__)
+#define TESSERA_FOR_EACH_LAW(KERNEL, ...)                          \
+  TESSERA_FOR_EACH_LAW_IN_LANES(KERNEL __VA_OPT__(, ) __VA_ARGS__) \
+  KERNEL(Ogden __VA_OPT__(, ) __VA_ARGS__)                         \
+  KERNEL(J2Plasticity __VA_OPT__(, ) __VA_ARGS__)

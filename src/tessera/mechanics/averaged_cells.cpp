@@ -71,11 +71,7 @@ TESSERA_KERNEL void volumes_of_four(const CellTask& task, const Neighbours& sour
                                         double* p) {                                                            \
     pressures_of<Double4>(task, law, source, p);                                                                \
   }
-TESSERA_PRESSURE_KERNEL(NeoHookean)
-TESSERA_PRESSURE_KERNEL(SaintVenantKirchhoff)
-TESSERA_PRESSURE_KERNEL(MooneyRivlin)
-TESSERA_PRESSURE_KERNEL(Ogden)
-TESSERA_PRESSURE_KERNEL(J2Plasticity)
+TESSERA_FOR_EACH_LAW(TESSERA_PRESSURE_KERNEL)
 #undef TESSERA_PRESSURE_KERNEL
 
 #ifdef TESSERA_WIDE_KERNEL
@@ -87,9 +83,7 @@ TESSERA_WIDE_KERNEL void volumes_of_eight(const CellTask& task, const Neighbours
                                               double* p) {                                                            \
     pressures_of<Double8>(task, law, source, p);                                                                      \
   }
-TESSERA_WIDE_PRESSURE_KERNEL(NeoHookean)
-TESSERA_WIDE_PRESSURE_KERNEL(SaintVenantKirchhoff)
-TESSERA_WIDE_PRESSURE_KERNEL(MooneyRivlin)
+TESSERA_FOR_EACH_LAW_IN_LANES(TESSERA_WIDE_PRESSURE_KERNEL)
 #undef TESSERA_WIDE_PRESSURE_KERNEL
 #endif
 

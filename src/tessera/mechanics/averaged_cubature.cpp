@@ -85,11 +85,7 @@ inline StressSums points_of(const Law& law, Index begin, Index end, const PointA
                                           const HistorySpan& history, const CellReport& report) {            \
     return points_of(law, begin, end, arrays, history, report);                                              \
   }
-TESSERA_POINTS_KERNEL(NeoHookean)
-TESSERA_POINTS_KERNEL(SaintVenantKirchhoff)
-TESSERA_POINTS_KERNEL(MooneyRivlin)
-TESSERA_POINTS_KERNEL(Ogden)
-TESSERA_POINTS_KERNEL(J2Plasticity)
+TESSERA_FOR_EACH_LAW(TESSERA_POINTS_KERNEL)
 #undef TESSERA_POINTS_KERNEL
 
 /// (1/3) sum_q cof E_q: the mean of cof(F +- E_q) over the points less cof F.

@@ -84,11 +84,7 @@ inline StressSums respond(const Law& law, Index begin, Index end, const Particle
                                             const HistorySpan& history) {                                         \
     return respond(law, begin, end, arrays, history);                                                             \
   }
-TESSERA_AVERAGED_KERNEL(NeoHookean)
-TESSERA_AVERAGED_KERNEL(SaintVenantKirchhoff)
-TESSERA_AVERAGED_KERNEL(MooneyRivlin)
-TESSERA_AVERAGED_KERNEL(Ogden)
-TESSERA_AVERAGED_KERNEL(J2Plasticity)
+TESSERA_FOR_EACH_LAW(TESSERA_AVERAGED_KERNEL)
 #undef TESSERA_AVERAGED_KERNEL
 
 /// P_a += (mean of p) J_a F_a^-T: from every Jbar that J_a is a part of.

@@ -174,15 +174,9 @@ inline StressSums cells_of(const CellTask& task, const Law& law, const Source& s
   TESSERA_KERNEL StressSums cells_of_four(const CellTask& task, const Law& law, const Source& source) { \
     return cells_of<Double4>(task, law, source);                                                        \
   }
-#define TESSERA_CELL_KERNELS(Source)                     \
-  TESSERA_CELL_KERNEL(NeoHookean, Source)                \
-  TESSERA_CELL_KERNEL(SaintVenantKirchhoff, Source)      \
-  TESSERA_CELL_KERNEL(MooneyRivlin, Source)              \
-  TESSERA_CELL_KERNEL(Ogden, Source)                     \
-  TESSERA_CELL_KERNEL(J2Plasticity, Source)              \
-  TESSERA_WIDE_CELL_KERNEL(NeoHookean, Source)           \
-  TESSERA_WIDE_CELL_KERNEL(SaintVenantKirchhoff, Source) \
-  TESSERA_WIDE_CELL_KERNEL(MooneyRivlin, Source)
+#define TESSERA_CELL_KERNELS(Source)                \
+  TESSERA_FOR_EACH_LAW(TESSERA_CELL_KERNEL, Source) \
+  TESSERA_FOR_EACH_LAW_IN_LANES(TESSERA_WIDE_CELL_KERNEL, Source)
 
 /// What the processor's widest registers hold.
 enum class Registers { four_numbers, eight_numbers };

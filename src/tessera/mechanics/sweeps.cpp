@@ -138,11 +138,7 @@ inline StressSums elastic_stresses(const System& s, const Tile& tile, const Law&
                                           const HistorySpan& history, const StressTarget& target) {           \
     return elastic_stresses(s, tile, law, F, history, target);                                                \
   }
-TESSERA_STRESS_KERNEL(NeoHookean)
-TESSERA_STRESS_KERNEL(SaintVenantKirchhoff)
-TESSERA_STRESS_KERNEL(MooneyRivlin)
-TESSERA_STRESS_KERNEL(Ogden)
-TESSERA_STRESS_KERNEL(J2Plasticity)
+TESSERA_FOR_EACH_LAW(TESSERA_STRESS_KERNEL)
 #undef TESSERA_STRESS_KERNEL
 
 }  // namespace
