@@ -80,6 +80,15 @@ class Usage(CliTest):
         self.assertNotIn("note: goes on", self.call("run", "case.toml", "--resume", "--set", "time.end=0.012",
                                                            "material.0.young=2e6").stderr)
 
+    def test_resumed_with_an_end_that_is_past(self):
+        self.write(CASE.replace("[[probe]]", 'checkpoint = { every = "5 ms" }\n[[probe]]', 1))
+        self.assertEqual(self.call("run", "case.toml").returncode, DONE)
+        before = (self.folder / "case.out/summary.json").read_bytes()
+        self.check_fails(USAGE, "have come to t = 0.01 s, beyond time.end = 0.002 s",
+                         arguments=["run", "case.toml", "--resume", "-q", "--set", "time.end=0.002"])
+        self.assertEqual((self.folder / "case.out/summary.json").read_bytes(), before)
+        self.assertEqual(self.call("run", "case.toml", "--resume", "-q").returncode, DONE)
+
     def test_unknown_key_to_describe(self):
         self.check_fails(USAGE, 'did you mean "time.safety"?', arguments=["describe", "time.safty"])
 
@@ -101,6 +110,11 @@ class BadCases(CliTest):
 
     def test_folder_instead_of_file(self):
         self.check_fails(INPUT, "is a folder", arguments=["run", "."])
+
+    def test_more_particles_than_memory_holds(self):
+        for particles in ("spacing = 1e-5", 'spacing = 1e-5, arrangement = "random"'):
+            self.write(re.sub(r"particles = \{.*\}", "particles = { %s }" % particles, CASE))
+            self.check_fails(INPUT, "case.toml:", "at the least", "larger spacing", arguments=["check", "case.toml"])
 
     def test_no_toml(self):
         self.check_bad("[time]", "[time", "case.toml:18:", "not valid TOML")

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "tessera/base/memory.hpp"
 #include "tessera/bench/layout.hpp"
 #include "tessera/bench/memory.hpp"
 #include "tessera/bench/rubber.hpp"

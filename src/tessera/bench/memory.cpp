@@ -1,7 +1,8 @@
 #include "tessera/bench/memory.hpp"
 
 #include <fstream>
-#include <string>
+
+#include "tessera/base/memory.hpp"
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -11,17 +12,7 @@ namespace tessera {
 
 namespace {
 
-/// A line such as "VmHWM:   1234 kB" of a file of the system, in bytes.
-std::optional<double> line_of(const char* path, const std::string& name) {
-  std::ifstream file(path);
-  for (std::string word; file >> word;) {
-    double kilobytes = 0.0;
-    if (word == name + ":" && file >> kilobytes) return 1024.0 * kilobytes;
-  }
-  return std::nullopt;
-}
-
-std::optional<double> status(const std::string& name) { return line_of("/proc/self/status", name); }
+std::optional<double> status(const char* name) { return line_of_memory("/proc/self/status", name); }
 
 /// Makes the peak start anew from what is resident now.
 bool reset_peak() {
@@ -38,8 +29,6 @@ void hand_back_free_memory() {
 }
 
 }  // namespace
-
-std::optional<double> available_memory() { return line_of("/proc/meminfo", "MemAvailable"); }
 
 PeakMemory::PeakMemory() {
   hand_back_free_memory();

@@ -4,9 +4,6 @@
 
 namespace tessera {
 
-/// Memory that programs can still take without swapping [bytes]. Nothing where the system does not say (Linux does).
-std::optional<double> available_memory();
-
 /// How much resident memory this process takes beyond what it has when the meter is made [bytes]. Nothing where the
 /// system does not say (Linux does).
 class PeakMemory {

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "tessera/bench/bench.hpp"
@@ -26,25 +28,68 @@ nlohmann::ordered_json accuracy_json(const AccuracyForTime& a) {
   return j;
 }
 
+// In the order in which they come; a method has some of them.
+constexpr std::array stages_of_setup = {"points", "cells", "bonds", "system"};
+constexpr std::array stages_of_step = {"strain",           "faces", "contact", "stress",
+                                       "curvature stress", "force", "rims",    "kick"};
+
+template <std::size_t n>
+std::vector<std::string> present(const std::array<const char*, n>& names, const BenchReport& report) {
+  std::vector<std::string> list;
+  for (const char* name : names)
+    for (const BenchRow& r : report.rows)
+      if (r.stages.contains(name) && (list.empty() || list.back() != name)) list.emplace_back(name);
+  return list;
+}
+
+double seconds_of(const BenchRow& r, const std::string& stage) {
+  const auto found = r.stages.find(stage);
+  return found == r.stages.end() ? 0.0 : found->second;
+}
+
+/// A column as wide as its heading needs.
+std::size_t width_of(const std::string& heading) { return std::max<std::size_t>(8, heading.size() + 2); }
+
+std::string table_of_steps(const BenchReport& report) {
+  const std::vector<std::string> stages = present(stages_of_step, report);
+  std::string text = fmt::format(
+      "steps of {}, {}: million particle-steps a second, memory traffic of them and its share of the triad, data kept, "
+      "and what stages take of a step\n{:>10} {:>8} {:>8} {:>8} {:>9} {:>11}",
+      report.rows.front().formulation, report.rows.front().integration, "particles", "threads", "M/s", "GB/s",
+      "of triad", "B/particle");
+  for (const std::string& stage : stages) text += fmt::format("{:>{}}", stage, width_of(stage));
+  text += "\n";
+  for (const BenchRow& r : report.rows) {
+    const double traffic = r.particle_steps_per_second * r.bytes_per_particle_step;
+    text += fmt::format("{:>10} {:>8} {:>8.2f} {:>8.1f} {:>8.0f}% {:>11.0f}", r.particles, r.threads,
+                        1e-6 * r.particle_steps_per_second, 1e-9 * traffic,
+                        100.0 * traffic / report.triad_bytes_per_second.at(r.threads), r.bytes_per_particle);
+    for (const std::string& stage : stages)
+      text += fmt::format("{:>{}.0f}%", 100.0 * seconds_of(r, stage) / seconds_of(r, "step"), width_of(stage) - 1);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string table_of_setup(const BenchReport& report) {
+  const std::vector<std::string> stages = present(stages_of_setup, report);
+  std::string text = fmt::format("set-up: seconds in all and of its stages, memory at its peak\n{:>10} {:>8} {:>8}",
+                                 "particles", "threads", "s");
+  for (const std::string& stage : stages) text += fmt::format("{:>{}}", stage, width_of(stage));
+  text += fmt::format(" {:>11}\n", "B/particle");
+  for (const BenchRow& r : report.rows) {
+    text += fmt::format("{:>10} {:>8} {:>8.2f}", r.particles, r.threads, r.setup_seconds);
+    for (const std::string& stage : stages) text += fmt::format("{:>{}.2f}", seconds_of(r, stage), width_of(stage));
+    text += fmt::format(" {:>11}\n", r.setup_peak_bytes ? fmt::format("{:.0f}", *r.setup_peak_bytes) : "unknown");
+  }
+  return text;
+}
+
 std::string speed_table(const BenchReport& report) {
   std::string text;
   for (const auto& [threads, bandwidth] : report.triad_bytes_per_second)
     text += fmt::format("triad on {} thread{}: {:.1f} GB/s\n", threads, threads == 1 ? "" : "s", 1e-9 * bandwidth);
-  text += fmt::format("\n{:>10} {:>8} {:>9} {:>10} {:>12} {:>8} {:>9} {:>9}  {}\n", "particles", "threads", "set-up s",
-                      "its peak B", "M p-steps/s", "GB/s", "of triad", "B/particle",
-                      "strain, contact, stress, force of a step");
-  for (const BenchRow& r : report.rows) {
-    const double traffic = r.particle_steps_per_second * r.bytes_per_particle_step;
-    const double step = r.stages.at("step");
-    text += fmt::format(
-        "{:>10} {:>8} {:>9.2f} {:>10} {:>12.2f} {:>8.1f} {:>8.0f}% {:>10.0f}  {:.0f}%, {:.0f}%, {:.0f}%, {:.0f}%\n",
-        r.particles, r.threads, r.setup_seconds,
-        r.setup_peak_bytes ? fmt::format("{:.0f}", *r.setup_peak_bytes) : "unknown", 1e-6 * r.particle_steps_per_second,
-        1e-9 * traffic, 100.0 * traffic / report.triad_bytes_per_second.at(r.threads), r.bytes_per_particle,
-        100.0 * r.stages.at("strain") / step, 100.0 * r.stages.at("contact") / step,
-        100.0 * r.stages.at("stress") / step, 100.0 * r.stages.at("force") / step);
-  }
-  return text;
+  return text + "\n" + table_of_steps(report) + "\n" + table_of_setup(report);
 }
 
 std::string accuracy_conclusion(const AccuracyForTime& a) {

@@ -11,6 +11,7 @@
 #include "tessera/geometry/lattice.hpp"
 #include "tessera/geometry/point_file.hpp"
 #include "tessera/geometry/region.hpp"
+#include "tessera/geometry/room.hpp"
 #include "tessera/geometry/scatter.hpp"
 #include "tessera/geometry/solid_surface.hpp"
 #include "tessera/parallel/parallel.hpp"
@@ -161,6 +162,7 @@ double Amount::in(double size, int dimension) const {
 PointSet place_particles(const ParticleSpec& spec, const SurfaceIndex& index) {
   if (std::holds_alternative<MeshFileSpec>(spec.source)) refuse_mesh(spec.origin);
   const double size = volume(index.surface());
+  require_room(spec, size, bounds(index.surface()).size());
   if (const auto* source = std::get_if<PointFileSpec>(&spec.source)) {
     FilePoints file = read_points(*source, spec.origin);
     for (std::size_t p = 0; p < file.points.size(); ++p)
@@ -178,6 +180,7 @@ PointSet place_particles(const ParticleSpec& spec, const SurfaceIndex& index) {
 
 PointSet place_particles(const ParticleSpec& spec, const Solid& solid, Placement placement) {
   if (std::holds_alternative<MeshFileSpec>(spec.source)) refuse_mesh(spec.origin);
+  require_room(spec, solid.volume, solid.upper - solid.lower);
   if (const auto* source = std::get_if<PointFileSpec>(&spec.source)) {
     FilePoints file = read_points(*source, spec.origin);
     check_inside(file, source->path, solid, placement);

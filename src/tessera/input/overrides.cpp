@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
+#include <utility>
 
 #include "tessera/base/text.hpp"
 #include "tessera/input/toml_reader.hpp"
@@ -36,16 +38,26 @@ void set_origin(Value& value, const Origin& origin) {
   }
 }
 
-Value& item_of(Array& array, const std::string& part, const Origin& origin) {
+std::optional<std::size_t> index_in(const std::string& part) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-  if (error == std::errc() && end == part.data() + part.size() && index < array.size()) return array[index];
+  if (error != std::errc() || end != part.data() + part.size()) return std::nullopt;
+  return index;
+}
+
+/// Of a list that the file does not have, such as [[initial]], also the next item, which is new.
+Value& item_of(Array& array, const std::string& part, const Origin& origin) {
+  const std::optional<std::size_t> index = index_in(part);
+  const bool is_new = array.empty() || array.back().origin.file == command_line;
+  if (index && *index == array.size() && is_new) array.push_back({Table{}, origin});
+  if (index && *index < array.size()) return array[*index];
   throw InputError(origin, fmt::format("{} is no item of a list of {}; count from 0, as in body.0.name", quoted(part),
                                        array.size()));
 }
 
-/// `path` is the path of the child.
-Value& child_of(Value& parent, const std::string& part, const std::string& path, const Origin& origin) {
+/// `path` is the path of the child; a new one is `made`.
+Value& child_of(Value& parent, const std::string& part, const std::string& path, const Origin& origin,
+                decltype(Value::data) made) {
   if (auto* array = std::get_if<Array>(&parent.data)) return item_of(*array, part, origin);
   auto* table = std::get_if<Table>(&parent.data);
   if (table == nullptr)
@@ -53,7 +65,7 @@ Value& child_of(Value& parent, const std::string& part, const std::string& path,
   if (Value* found = find(*table, part)) return *found;
   Origin created = origin;
   created.key = path;
-  table->push_back({part, created, {Table{}, created}});
+  table->push_back({part, created, {std::move(made), created}});
   return table->back().value;
 }
 
@@ -75,10 +87,14 @@ void apply(Value& root, const std::string& text) {
   Value* place = &root;
   Value* parent = nullptr;
   std::string path;
-  for (const std::string& part : parts) {
-    path.append(path.empty() ? "" : ".").append(part);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    path.append(path.empty() ? "" : ".").append(parts[i]);
     parent = place;
-    place = &child_of(*parent, part, path, origin);
+    const bool holds_items = i + 1 < parts.size() && index_in(parts[i + 1]);
+    if (holds_items)
+      place = &child_of(*parent, parts[i], path, origin, Array{});
+    else
+      place = &child_of(*parent, parts[i], path, origin, Table{});
   }
   mark_key(*parent, parts.back(), origin);
   const std::string value(trimmed(text.substr(equals + 1)));

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -63,14 +65,23 @@ struct EnergyLedger {
   double scale = 0.0;            // largest energy seen so far, the measure for the relative error
   double largest_contact = 0.0;  // seen so far
   double largest_strain = 0.0;   // internal + contact, seen so far
+  double negligible = 0.0;       // what is below may be round-off
 
   double error() const { return kinetic + internal + contact + dissipated - external_work - initial; }
-  double relative_error() const { return scale > 0.0 ? error() / scale : 0.0; }
+  double relative_error() const {
+    const double measure = std::max(scale, negligible);
+    return measure > 0.0 ? error() / measure : 0.0;
+  }
   double strain() const { return internal + contact; }
   /// Share of the bonds in the strain energy, which they stabilise; not a number without strain.
-  double contact_share() const { return contact / strain(); }
+  double contact_share() const { return share(contact, strain()); }
   /// Largest energy of the bonds over the largest strain energy; not a number without strain.
-  double largest_contact_share() const { return largest_contact / largest_strain; }
+  double largest_contact_share() const { return share(largest_contact, largest_strain); }
+
+ private:
+  double share(double part, double whole) const {
+    return whole > negligible ? part / whole : std::numeric_limits<double>::quiet_NaN();
+  }
 };
 
 struct Momentum {

@@ -47,7 +47,8 @@ Engine::Engine(Model& model, const TimeSpec& spec)
       leapfrog_(model.system, model.loads, spec.damping, inertia(model, mass_scaling_)),
       ledger_(model.system, model.loads),
       control_(spec, model.system, state_, model.loads.motion.positions(), inertia(model, mass_scaling_)),
-      walls_(copy_of(model.loads.motion.positions())) {
+      walls_(copy_of(model.loads.motion.positions())),
+      negligible_energy_(negligible_strain_energy * elastic_scale(model.system)) {
   // Constrained particles start where they are told to be.
   const auto& constraints = model.system.d.constraints;
   for (std::size_t i = 0; i < constraints.size(); ++i) {
@@ -114,6 +115,7 @@ EnergyLedger Engine::energies() const {
   e.scale = std::max(energy_scale_, e.kinetic + e.internal + e.contact + e.dissipated);
   e.largest_contact = std::max(largest_contact_, e.contact);
   e.largest_strain = std::max(largest_strain_, e.strain());
+  e.negligible = negligible_energy_;
   return e;
 }
 
@@ -160,10 +162,6 @@ void Engine::verify_deformation() const {
     if (J[a] <= 0.0) fail(static_cast<Index>(a), fmt::format("the cell is inverted (J = {:.3g})", J[a]));
 }
 
-bool Engine::was_strained() const {
-  return energies().largest_strain > negligible_strain_energy * elastic_scale(model_.system);
-}
-
 void Engine::verify_energy() {
   const EnergyLedger e = energies();
   energy_scale_ = e.scale;
@@ -172,8 +170,7 @@ void Engine::verify_energy() {
   if (time_ > starting_part * spec_.end) largest_kinetic_share_ = std::max(largest_kinetic_share_, kinetic_share(e));
   if (!has_potential(model_.system.d)) return;  // the ledger need not close
   if (step_ < fewest_judged_steps) return;
-  if (e.scale < negligible_strain_energy * elastic_scale(model_.system) || e.relative_error() < hopeless_energy_error)
-    return;
+  if (e.scale < e.negligible || e.relative_error() < hopeless_energy_error) return;
   Index fastest = 0;
   for (std::size_t a = 0; a < state_.v.size(); ++a)
     if (dot3(state_.v[a], state_.v[a]) >

@@ -38,9 +38,6 @@ class Engine {
   /// after the first tenth of the run: what a quasi-static run keeps small.
   double largest_kinetic_share() const { return largest_kinetic_share_; }
 
-  /// Has there been strain energy beyond round-off at a look at the energy?
-  bool was_strained() const;
-
   // Observations; prepare() was called for this time.
   EnergyLedger energies() const;
   Momentum momentum() const;
@@ -90,7 +87,7 @@ class Engine {
   bool started_ = false;  // velocities are half a step behind
   double initial_energy_ = 0.0;
   Momentum initial_momentum_;
-  double energy_scale_ = 0.0;
+  double energy_scale_ = 0.0, negligible_energy_ = 0.0;
   double largest_kinetic_share_ = 0.0;
   double largest_contact_ = 0.0, largest_strain_ = 0.0;
 };

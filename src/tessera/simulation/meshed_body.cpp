@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tessera/geometry/room.hpp"
 #include "tessera/geometry/shape_surface.hpp"
 #include "tessera/geometry/surface_index.hpp"
 #include "tessera/tessellation/surface_mesh.hpp"
@@ -83,7 +84,8 @@ double spacing_of(const ParticleSpec& particles, double volume) {
 
 TetrahedralMesh mesh_of_shape(const BodySpec& body, std::vector<std::string>& notes) {
   const ShapeSurface shape = shape_surface(*body.shape);
-  const double spacing = spacing_of(body.particles, volume(shape.surface));
+  const double inside = volume(shape.surface), spacing = spacing_of(body.particles, inside);
+  require_room(body.particles, inside, bounds(shape.surface).size());
   SurfaceMeshSpec spec{.spacing = spacing, .mesher = body.particles.mesher.mesher.value_or(Mesher::automatic)};
   if (const std::optional<Formula>& size = body.particles.mesher.size)
     spec.size = local_size(*size, body.particles.origin, shape.surface, spacing);

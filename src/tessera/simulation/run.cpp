@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tessera/base/stopwatch.hpp"
+#include "tessera/base/text.hpp"
 #include "tessera/base/version.hpp"
 #include "tessera/output/progress.hpp"
 #include "tessera/output/result_folder.hpp"
@@ -98,6 +99,12 @@ Run::Run(const Case& c, const RunOptions& options) : case_(c), options_(options)
   std::optional<ContinueFrom> from;
   if (options.resume) {
     engine_->restore(read_checkpoint(checkpoint_path(options.directory)));
+    if (engine_->time() > c.time.end)
+      throw UsageError(
+          fmt::format("the results in {} have come to t = {:g} s, beyond time.end = {:g} s; nothing is left to do, and "
+                      "they stay as "
+                      "they are",
+                      quoted(options.directory), engine_->time(), c.time.end));
     // The state itself is written again, also the first one.
     from = ContinueFrom{engine_->steps() > 0 ? engine_->time() - 0.5 * engine_->dt() : -1.0};
   }
@@ -207,7 +214,6 @@ MassScalingSummary Run::mass_scaling_summary() const {
 
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> list;
-  if (!engine_->was_strained()) return list;
   if (std::string bonds = warning_of_bonds(engine_->energies()); !bonds.empty()) list.push_back(std::move(bonds));
   return list;
 }

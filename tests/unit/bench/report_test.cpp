@@ -19,7 +19,8 @@ BenchReport report() {
   row.threads = 2;
   row.formulation = "voronoi";
   row.particle_steps_per_second = 5e6;
-  row.stages = {{"strain", 1.0}, {"contact", 1.0}, {"stress", 1.0}, {"force", 1.0}, {"step", 5.0}};
+  row.integration = "nodal";
+  row.stages = {{"strain", 1.0}, {"contact", 1.0}, {"stress", 1.0}, {"force", 1.0}, {"step", 5.0}, {"cells", 2.5}};
   r.rows = {row};
   r.accuracy = {accuracy(TimeToError{42.0, true})};
   return r;
@@ -78,6 +79,15 @@ TEST(Bench, MeasuresTheAccuracyOfAllIntegrationsUnlessAskedForOne) {
 TEST(BenchReport, TableNamesTheIntegration) {
   EXPECT_NE(to_table(report()).find("delaunay         nodal        2          4"), std::string::npos)
       << to_table(report());
+}
+
+TEST(BenchReport, TableHasTheMethodAndItsStages) {
+  const std::string text = to_table(report());
+  EXPECT_NE(text.find("steps of voronoi, nodal:"), std::string::npos) << text;
+  EXPECT_NE(text.find("  strain  contact  stress   force\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("     20%      20%     20%     20%\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("   cells  B/particle\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("    2.50     unknown\n"), std::string::npos) << text;
 }
 
 TEST(BenchReport, TableSaysWhatIsExtrapolated) {

@@ -34,6 +34,16 @@ TEST(Overrides, AddWhatTheFileDoesNotSay) {
   EXPECT_EQ(c.materials[0].contact.tangential, 1.0);
 }
 
+TEST(Overrides, BeginListsThatTheFileDoesNotHave) {
+  const std::string without =
+      sample::text.substr(0, sample::text.find("[[initial]]")) + sample::text.substr(sample::text.find("[[boundary]]"));
+  const Case c = sample::read(without, {"initial.0.velocity=[1, 0, 0]", "initial.0.body=block"});
+  ASSERT_EQ(c.initial.size(), 1U);
+  EXPECT_EQ(c.initial[0].body, "block");
+  EXPECT_NE(sample::error_of(without, {"initial.1.velocity=[1, 0, 0]"}).find("\"1\" is no item of a list of 0"),
+            std::string::npos);
+}
+
 TEST(Overrides, ReplaceAlternatives) {
   const Case c =
       sample::read(sample::text, {"body.0.particles.spacing=5 cm", "boundary.3.condition=fixed",

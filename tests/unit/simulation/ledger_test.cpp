@@ -26,6 +26,17 @@ double largest_error(const Sample& sample, double dt) {
   return error / scale;
 }
 
+/// At rest all energies are round-off, which is no error of the books and has no shares.
+TEST(Ledger, OfABodyAtRestHasNoError) {
+  Case c = cube_case(Method::consistent, {3, 3, 3}, 0.2);
+  c.boundary = {condition({"-x"}, Condition::fixed)};
+  c.time.end = 0.05;
+  Running run(c);
+  run.finish([](const Engine& e) { EXPECT_LT(std::abs(e.energies().relative_error()), 0.01); });
+  EXPECT_TRUE(std::isnan(run.engine.energies().contact_share()));
+  EXPECT_TRUE(std::isnan(run.engine.energies().largest_contact_share()));
+}
+
 class LedgerCloses : public testing::TestWithParam<Sample> {};
 
 /// The books close, and twice as well as the step halves squared.
