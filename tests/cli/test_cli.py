@@ -269,6 +269,21 @@ class Examples(CliTest):
 
 
 class Runs(CliTest):
+    def test_bodies_that_come_to_each_other(self):
+        other = SECOND_BODY.replace("0.5, 0, 0", "1.1, 0, 0").replace("9, 1, 1", "2, 1, 1").replace("2, 2", "3, 3")
+        other = other.replace("counts = [3, 3, 2]", "counts = [3, 3, 3]")
+        text = CASE.replace("[[probe]]", other + "[[probe]]")
+        for line in ('where = "-x"', 'where = "+x"'):
+            text = text.replace(line, 'body = "block"\n' + line)
+        for way, warned in (("0.01", False), ("60", True)):
+            self.write(text.replace("0.01*t", way + "*t"))
+            result = self.call("run", "case.toml", "--force", "-q")
+            self.assertEqual(result.returncode, DONE, result.stderr)
+            warnings = json.loads((self.folder / "case.out/summary.json").read_text())["warnings"]
+            said = 'bodies "block" and "other" came to each other at'
+            self.assertEqual(any(said in warning for warning in warnings), warned, warnings)
+            self.assertEqual("tessera: warning: " + said in result.stderr, warned)
+
     def run_case(self, *arguments):
         self.write(CASE)
         result = self.call("run", "case.toml", "--quiet", *arguments)

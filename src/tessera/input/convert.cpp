@@ -123,9 +123,19 @@ Value to_interval(const Parameter& p, const Value& value) {
   return with_data(value, fmt::format("{} s {}", to_number(p, time), wall));
 }
 
+/// "1 mm*t" reads as millimetres times tonnes, but whoever writes so means a formula.
+void refuse_units_in_formula(const Parameter& p, const Value& value, const std::string& text) {
+  const DimensionalResult result = read_quantity(text);
+  if (!result.quantity || result.quantity->dimension == p.dimension || text.find('*') == std::string::npos) return;
+  throw InputError(value.origin, fmt::format("found {}, a product of units; numbers in formulas are in SI units and "
+                                             "have none behind them, as in \"1e-3*t\"",
+                                             describe(value)));
+}
+
 /// A number, or the text of a formula. What starts as a number with a unit is never a formula.
 Value to_formula(const Parameter& p, const Value& value) {
   const auto* text = value.get_if<std::string>();
+  if (text != nullptr) refuse_units_in_formula(p, value, *text);
   if (text == nullptr || looks_like_quantity(*text)) return with_data(value, to_number(p, value));
   if (const auto result = read_quantity(*text); result.quantity && result.quantity->dimension == dimension::none)
     return with_data(value, result.quantity->value);

@@ -143,7 +143,9 @@ Rows time_rows() {
        .kind = words,
        .presence = defaulted,
        .standard = "[]",
-       .sentence = "Names of what is written; an empty list means the usual set."},
+       .sentence =
+           "Names of what is written, beside reference_position; an empty list means displacement, velocity, force, "
+           "deformation_gradient, cauchy_stress, von_mises, pressure, J, body and material."},
       {.key = "output.fields.cells",
        .kind = flag,
        .presence = defaulted,

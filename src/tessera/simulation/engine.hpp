@@ -43,6 +43,8 @@ class Engine {
   Momentum momentum() const;
   const Momentum& initial_momentum() const { return initial_momentum_; }
   Snapshot snapshot() const;
+  /// Present positions in the order in memory, boundary nodes after the particles [m].
+  const Field<Double4>& present_positions() const { return state_.x; }
   /// Snapshots of parts; valid until the engine moves on.
   SnapshotSource snapshots() const;
   /// Force on what prescribes the motion of each boundary node (voronoi) or constrained particle (delaunay) [N].

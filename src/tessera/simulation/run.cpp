@@ -13,6 +13,7 @@
 #include "tessera/output/result_folder.hpp"
 #include "tessera/output/summary.hpp"
 #include "tessera/parallel/parallel.hpp"
+#include "tessera/simulation/approach.hpp"
 #include "tessera/simulation/engine.hpp"
 #include "tessera/simulation/recorder.hpp"
 #include "tessera/simulation/signals.hpp"
@@ -80,6 +81,7 @@ class Run {
   double seconds_of_first_step_ = 0.0;  // choosing it is part of the set-up's time, and accounted for apart [s]
   std::optional<Model> model_;
   std::optional<Engine> engine_;
+  std::optional<Approach> approach_;
   std::optional<Recorder> recorder_;
   std::optional<Progress> progress_;
   std::optional<CheckpointTimer> checkpoint_timer_;
@@ -94,6 +96,7 @@ Run::Run(const Case& c, const RunOptions& options) : case_(c), options_(options)
   model_.emplace(build_model(c));
   require(model_->identities);
   engine_.emplace(*model_, c.time);
+  approach_.emplace(*model_);
   seconds_of_first_step_ = engine_->step_control().seconds();
   prepare_result_folder(options.directory, existing_result(options));
   std::optional<ContinueFrom> from;
@@ -161,6 +164,7 @@ void Run::steps() {
     engine_->verify_deformation();
   }
   if (case_.output.checkpoint.every_time || case_.output.checkpoint.every_wall) save_checkpoint();
+  approach_->look(engine_->present_positions(), engine_->time());
   engine_->prepare();
   observe();
   progress_->finish(engine_->time(), engine_->steps(), engine_->energies().relative_error());
@@ -172,6 +176,7 @@ void Run::keep_going() {
   if ((engine_->steps() - first_step_) % backup_interval == 0) {
     recorder_->complete();  // as before a checkpoint, which the backup may become
     backup_ = engine_->checkpoint();
+    approach_->look(engine_->present_positions(), engine_->time());
   }
   if (const int signal = StopSignals::received(); signal != 0) {
     recorder_->complete();
@@ -213,7 +218,7 @@ MassScalingSummary Run::mass_scaling_summary() const {
 }
 
 std::vector<std::string> Run::warnings() const {
-  std::vector<std::string> list;
+  std::vector<std::string> list = approach_->warnings();
   if (std::string bonds = warning_of_bonds(engine_->energies()); !bonds.empty()) list.push_back(std::move(bonds));
   return list;
 }

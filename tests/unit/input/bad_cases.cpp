@@ -220,6 +220,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{"\"2 mm\"", "\"2 mm/s\"", "19:30", "initial.0.displacement.2", "a velocity in m/s; expected"},
                     Bad{"\"2 bar\"", "true", "32:12", "boundary.3.pressure", "found true; expected a pressure in Pa"},
                     Bad{"\"2 bar\"", "\"2*nn\"", "32:15", "boundary.3.pressure", "did you mean \"nx\"?"},
+                    Bad{"\"-0.1*t\"", "\"1 mm*t\"", "23:20", "boundary.0.displacement.1",
+                        "have none behind them, as in \"1e-3*t\""},
                     Bad{"\"-0.1*t\"", "\"nx\"", "23:21", "boundary.0.displacement.1", "unknown name \"nx\""},
                     Bad{"pressure = \"2 bar\"", "stress = [[1, 2, 3], [4, 5, 6]]", "32:10", "boundary.3.stress",
                         "found a list of 2; expected a list of three rows of three"},

@@ -7,6 +7,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/input/parameter.hpp"
 #include "tessera/input/toml_reader.hpp"
+#include "tessera/output/quantities.hpp"
 
 namespace tessera {
 namespace {
@@ -27,6 +28,13 @@ TEST(InputTable, IsComplete) {
     EXPECT_EQ(!p.choices.empty(), words) << p.key;
     for (const std::string& name : p.exactly_one) EXPECT_NE(input::find_parameter(p.key + "." + name), nullptr) << name;
   }
+}
+
+TEST(Describe, NamesTheQuantitiesThatAreWrittenUnlessAskedFor) {
+  const std::string text = describe_key("output.fields.quantities");
+  const std::string sentence = text.substr(0, text.find("Quantities\n"));
+  for (const Quantity* quantity : field_quantities({}, {}))
+    EXPECT_TRUE(contains(sentence, std::string(quantity->name))) << sentence;
 }
 
 TEST(Describe, ShowsEveryKey) {
