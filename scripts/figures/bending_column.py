@@ -31,6 +31,7 @@ def main():
     gnuplot.plot(runs.EXAMPLES / "bending-column/paths.png", blocks, f"""set xlabel 't [s]'
 set ylabel 'height of the corner [m]'
 set xrange [0:1]
+set key bottom left
 set yrange [-1:4.5]
 plot {", ".join(curves)}""", size=(720, 420))
 

@@ -66,18 +66,22 @@ def draw_momenta(case, result):
     rows = momenta(result.history)
     largest = max(abs(v) for row in rows for v in row[1:])
     power = 3 * math.floor(math.log10(largest) / 3)
+    change = changes(rows, CASES[case]["loaded"])
+    # What is smaller than round-off of the largest by far is zero, and would take most of a logarithmic axis.
+    lowest = 1e-8 * max(v for row in change for v in row[1:] if v)
     commands = f"""set multiplot layout 1,2
 set xlabel 't [s]'
-set key center right
+set key outside top center horizontal maxrows 1
 set ylabel 'momentum [10^{power} kg m/s, 10^{power} kg m^2/s]'
 plot {curves('all', 10.0**-power, 'lines linewidth 1.5')}
 set key off
 set logscale y
+set yrange [{lowest:g}:*]
 set format y '10^{{%L}}'
 set ylabel 'change [kg m/s, kg m^2/s]'
 plot {curves('change', 1, 'points pointtype 7 pointsize 0.3')}
 unset multiplot"""
-    blocks = {"all": rows, "change": changes(rows, CASES[case]["loaded"])}
+    blocks = {"all": rows, "change": change}
     gnuplot.plot(runs.EXAMPLES / case / "momenta.png", blocks, commands)
 
 
