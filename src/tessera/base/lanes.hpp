@@ -100,14 +100,9 @@ inline FourOf<Double4> load_fours(const double* const (&row)[4], int k) {
                  second = load_pairs(row[0] + k + 2, row[1] + k + 2, row[2] + k + 2, row[3] + k + 2);
   return {first.first, first.second, second.first, second.second};
 }
-inline FourOfEight load_fours(const double* const (&row)[8], int k) {
-  const auto both = [&](int low, int high) {
-    Double4 l, h;
-    __builtin_memcpy(&l, row[low] + k, sizeof l);
-    __builtin_memcpy(&h, row[high] + k, sizeof h);
-    return __builtin_shufflevector(l, h, 0, 1, 2, 3, 4, 5, 6, 7);
-  };
-  const Double8 rows02 = both(0, 2), rows13 = both(1, 3), rows46 = both(4, 6), rows57 = both(5, 7);
+/// `rows02`: four numbers of row 0, then four of row 2.
+inline FourOfEight transposed_halves(const Double8& rows02, const Double8& rows13, const Double8& rows46,
+                                     const Double8& rows57) {
   const Double8 even0 = __builtin_shufflevector(rows02, rows13, 0, 8, 2, 10, 4, 12, 6, 14),
                 odd0 = __builtin_shufflevector(rows02, rows13, 1, 9, 3, 11, 5, 13, 7, 15),
                 even4 = __builtin_shufflevector(rows46, rows57, 0, 8, 2, 10, 4, 12, 6, 14),
@@ -116,6 +111,15 @@ inline FourOfEight load_fours(const double* const (&row)[8], int k) {
           __builtin_shufflevector(odd0, odd4, 0, 1, 4, 5, 8, 9, 12, 13),
           __builtin_shufflevector(even0, even4, 2, 3, 6, 7, 10, 11, 14, 15),
           __builtin_shufflevector(odd0, odd4, 2, 3, 6, 7, 10, 11, 14, 15)};
+}
+inline FourOfEight load_fours(const double* const (&row)[8], int k) {
+  const auto both = [&](int low, int high) {
+    Double4 l, h;
+    __builtin_memcpy(&l, row[low] + k, sizeof l);
+    __builtin_memcpy(&h, row[high] + k, sizeof h);
+    return joined(l, h);
+  };
+  return transposed_halves(both(0, 2), both(1, 3), both(4, 6), both(5, 7));
 }
 
 /// The other way.

@@ -175,7 +175,8 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   if (s.second_order) stages["curvature stress"] = seconds_per_call([&] { return_curvature(s, curved); });
   stages["rims"] = seconds_per_call([&] {
     parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
-      collect_rims(s.tiles, rim_f.data(), f.data(), static_cast<Index>(begin), static_cast<Index>(end));
+      collect_rims(s.tiles, rim_f.data(), f.data() + begin, f.data() + begin, static_cast<Index>(begin),
+                   static_cast<Index>(end));
     });
   });
 }

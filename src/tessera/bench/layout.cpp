@@ -60,7 +60,7 @@ double bytes_per_particle_step(const System& s) {
   const double contact_and_stress = (1.0 + n.rim) * (vector + vec3 + tensor) + n.rim * index + row +
                                     n.slots * (local + stiffness) + number + 2.0 * vector;
   const double force = vec3 + n.slots * vec3 + n.bonds * incoming + (1.0 + n.rim) * local + n.rim * 2.0 * vector;
-  const double rims = offset + n.rim * (index + vector) + 2.0 * vector;
+  const double rims = offset + n.rim * (index + vector);
   const double kick_and_drift = number + vector + 2.0 * vector + 2.0 * vector;
   const double cells = (1.0 + n.rim) * (vec3 + local) + sizeof(Mat3) + n.bonds * incoming + 2.0 * tensor +
                        n.rim * (2.0 * tensor + index) + offset + number;

@@ -48,7 +48,7 @@ class Leapfrog {
   double mass(Index a) const { return mass_[static_cast<std::size_t>(a)]; }  // [kg]
 
  private:
-  Double4 free_kick(const State& state, const Double4* force, double h, Index a) const;
+  Double4 free_kick(const State& state, const Double4& force, double h, Index a) const;
   Vec3 constrained_velocity(const State& state, std::size_t i, double dt, const Vec3& free) const;
 
   const System& system_;

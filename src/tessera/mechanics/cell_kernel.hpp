@@ -45,8 +45,7 @@ template <class Lanes>
 inline Lanes9Of<Lanes> load_F(const Tensor* F, const CellGroup<Lanes>& group) {
   const double* row[lanes_in<Lanes>];
   for (Index lane = 0; lane < group.lanes; ++lane) row[lane] = F[group.local[lane]].m;
-  const FourOf<Lanes> f0 = load_fours(row, 0), f4 = load_fours(row, 4), f5 = load_fours(row, 5);
-  return {f0.n0, f0.n3, f4.n2, f0.n1, f4.n0, f4.n3, f0.n2, f4.n1, f5.n3};
+  return lanes_of_rows<Lanes>(row);
 }
 
 /// Lanes that repeat a particle keep nothing.
@@ -63,26 +62,6 @@ inline LanesHistoryOf<Lanes> history_of_point(const HistorySpan& history, Index 
   }
   return all;
 }
-
-/// Several tensors column by column.
-template <class Lanes>
-struct ColumnsOf {
-  explicit ColumnsOf(const Lanes9Of<Lanes>& l) {
-    if constexpr (lanes_in<Lanes> == 4) {
-      const FourColumns four = columns_of(l);
-      std::copy(four.t, four.t + 4, t);
-    } else {
-      const FourColumns first = columns_of(half(l, first_half)), second = columns_of(half(l, second_half));
-      std::copy(first.t, first.t + 4, t);
-      std::copy(second.t, second.t + 4, t + 4);
-    }
-  }
-  template <class Half>
-  static Lanes9 half(const Lanes9Of<Lanes>& l, const Half& h) {
-    return {h(l.xx), h(l.xy), h(l.xz), h(l.yx), h(l.yy), h(l.yz), h(l.zx), h(l.zy), h(l.zz)};
-  }
-  Columns t[lanes_in<Lanes>];
-};
 
 /// What is done with the stresses of a tile beside adding them up.
 struct CellTask {
@@ -177,19 +156,6 @@ inline StressSums cells_of(const CellTask& task, const Law& law, const Source& s
 #define TESSERA_CELL_KERNELS(Source)                \
   TESSERA_FOR_EACH_LAW(TESSERA_CELL_KERNEL, Source) \
   TESSERA_FOR_EACH_LAW_IN_LANES(TESSERA_WIDE_CELL_KERNEL, Source)
-
-/// What the processor's widest registers hold.
-enum class Registers { four_numbers, eight_numbers };
-
-/// Found out once.
-inline Registers widest_registers() {
-#ifdef TESSERA_WIDE_KERNEL
-  static const Registers widest = has_wide_registers() ? Registers::eight_numbers : Registers::four_numbers;
-  return widest;
-#else
-  return Registers::four_numbers;
-#endif
-}
 
 // Returns what the kernel for this law and these registers says.
 #ifdef TESSERA_WIDE_KERNEL

@@ -2,6 +2,11 @@
 
 #include "tessera/base/lanes.hpp"
 #include "tessera/mechanics/sweeps.hpp"
+#include "tessera/mechanics/tile_nodes.hpp"
+
+#ifdef TESSERA_WIDE_KERNEL
+#include <immintrin.h>
+#endif
 
 // Bonds of several particles at once, one of each: four in registers of 256 bits, eight in those of 512.
 
@@ -65,17 +70,33 @@ inline Nodes<Double4> load_nodes(const TileNode* nodes, const std::uint16_t* loc
           {p12.first, p12.second, p14.first}};
 }
 
-inline Nodes<Double8> load_nodes(const TileNode* nodes, const std::uint16_t* first, const std::uint16_t* second) {
+#ifdef TESSERA_WIDE_KERNEL
+
+/// Two halves, each on a boundary of 32 bytes. The second is inserted by the load, where compilers take a shuffle more
+/// to join registers; shuffles are what limits the contact sweep.
+TESSERA_WIDE_INLINE Double8 load_halves(const double* low, const double* high) {
+  return reinterpret_cast<Double8>(
+      _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(low)), _mm256_load_pd(high), 1));
+}
+TESSERA_WIDE_INLINE FourOfEight load_aligned_fours(const double* const (&row)[8], int k) {
+  return transposed_halves(load_halves(row[0] + k, row[2] + k), load_halves(row[1] + k, row[3] + k),
+                           load_halves(row[4] + k, row[6] + k), load_halves(row[5] + k, row[7] + k));
+}
+
+TESSERA_WIDE_INLINE Nodes<Double8> load_nodes(const TileNode* nodes, const std::uint16_t* first,
+                                              const std::uint16_t* second) {
   const double* const row[8] = {nodes[first[0]].value,  nodes[first[1]].value,  nodes[first[2]].value,
                                 nodes[first[3]].value,  nodes[second[0]].value, nodes[second[1]].value,
                                 nodes[second[2]].value, nodes[second[3]].value};
-  const FourOfEight f0 = load_fours(row, 0), f4 = load_fours(row, 4), f8 = load_fours(row, 8),
-                    f12 = load_fours(row, 12);
+  const FourOfEight f0 = load_aligned_fours(row, 0), f4 = load_aligned_fours(row, 4), f8 = load_aligned_fours(row, 8),
+                    f12 = load_aligned_fours(row, 12);
   return {{f0.n0, f0.n1, f0.n2},
           {f0.n3, f4.n0, f4.n1},
           {f4.n2, f4.n3, f8.n0},
           {f8.n1, f8.n2, f8.n3},
           {f12.n0, f12.n1, f12.n2}};
 }
+
+#endif
 
 }  // namespace tessera

@@ -69,13 +69,23 @@ void Forces::add_tractions(const State& state, const ExternalAction& action) {
   for (const NodalForce& l : action.tractions) f[static_cast<std::size_t>(l.particle)] += to_kernel(l.force);
 }
 
-/// Adds what other tiles have done, and gravity.
-void Forces::complete(Index first, Index last) const {
-  forces_.collect(first, last);
+/// What bonds and the tiles themselves have done, with what other tiles have done, and gravity.
+void Forces::complete(Index first, Index last, Double4* total) const {
+  forces_.collect(first, last, total);
   if (gravity_ == Vec3{}) return;
   const Double4 g = to_kernel(gravity_);
-  for (Index a = first; a < last; ++a)
-    forces_.f()[static_cast<std::size_t>(a)] += system_.mass[static_cast<std::size_t>(a)] * g;
+  for (Index a = first; a < last; ++a) total[a - first] += system_.mass[static_cast<std::size_t>(a)] * g;
+}
+
+const Field<Double4>& Forces::total() const {
+  if (!incomplete_) return forces_.f();
+  const std::lock_guard lock(completing_);
+  if (incomplete_)
+    parallel::for_ranges(0, system_.particles(), [&](std::int64_t begin, std::int64_t end) {
+      complete(static_cast<Index>(begin), static_cast<Index>(end), forces_.f().data() + begin);
+    });
+  incomplete_ = false;
+  return forces_.f();
 }
 
 /// The stresses of the last evaluation once more: without bonds, the state's history being what it has found.
@@ -105,7 +115,7 @@ Forces::Internal Forces::internal(const State& state) const {
   std::vector<Vec3> reactions(static_cast<std::size_t>(s.boundary_nodes()));
   forces.find(*integration_->apart(), task, scratches_, reactions);
   parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
-    forces.collect(static_cast<Index>(begin), static_cast<Index>(end));
+    forces.collect(static_cast<Index>(begin), static_cast<Index>(end), forces.f().data() + begin);
   });
   result.force = std::move(forces.f());
   return result;

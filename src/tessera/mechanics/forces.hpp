@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -40,12 +41,9 @@ class Forces {
   Index stress_points() const { return system_.stress_points; }
 
   /// [N], reactions on constrained particles left out. What evaluate() leaves for the end is added when somebody asks.
-  const Field<Double4>& total() const {
-    if (incomplete_) for_ranges_of_total([](Index, Index, const Double4*) {});
-    return forces_.f();
-  }
-  /// Calls body(first, last, total) for ranges of particles, in parallel, each right after its forces are complete:
-  /// they are still in the cache.
+  const Field<Double4>& total() const;
+  /// Calls body(first, last, total) for ranges of particles, in parallel, where `total` are the forces from that on
+  /// `first` on. They come into being in the cache and leave no traces in memory.
   template <class Body>
   void for_ranges_of_total(Body&& body) const;
 
@@ -76,7 +74,7 @@ class Forces {
  private:
   void strain(State& state, const ExternalAction& action);
   void add_tractions(const State& state, const ExternalAction& action);
-  void complete(Index first, Index last) const;
+  void complete(Index first, Index last, Double4* total) const;
   StressTask once_more(const State& state, const CellReport& report) const;
 
   const System& system_;
@@ -100,10 +98,17 @@ void Forces::for_ranges_of_total(Body&& body) const {
   const bool incomplete = incomplete_;
   parallel::for_ranges(0, system_.particles(), [&](std::int64_t begin, std::int64_t end) {
     const auto first = static_cast<Index>(begin), last = static_cast<Index>(end);
-    if (incomplete) complete(first, last);
-    body(first, last, forces_.f().data());
+    if (!incomplete) {
+      body(first, last, forces_.f().data() + first);
+      return;
+    }
+    constexpr Index piece = 256;  // its forces stay in the first-level cache
+    Double4 total[piece];
+    for (Index a = first; a < last; a += piece) {
+      complete(a, std::min(a + piece, last), total);
+      body(a, std::min(a + piece, last), total);
+    }
   });
-  incomplete_ = false;
 }
 
 }  // namespace tessera

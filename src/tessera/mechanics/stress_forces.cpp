@@ -63,9 +63,9 @@ void StressForces::drain(std::span<Vec3> reactions) {
   add_direct_reactions(s_, owners_P_.data(), f_.data(), reactions);
 }
 
-void StressForces::collect(Index first, Index last) {
-  collect_rims(s_.tiles, rim_f_.data(), f_.data(), first, last);
-  if (s_.d.direct) collect_rims(s_.tiles, rim_f_direct_.data(), f_.data(), first, last);
+void StressForces::collect(Index first, Index last, Double4* total) const {
+  collect_rims(s_.tiles, rim_f_.data(), f_.data() + first, total, first, last);
+  if (s_.d.direct) collect_rims(s_.tiles, rim_f_direct_.data(), total, total, first, last);
 }
 
 }  // namespace tessera

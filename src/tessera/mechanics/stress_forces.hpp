@@ -24,8 +24,8 @@ class StressForces {
   /// drained from boundary nodes. Sets `reactions`, the force on what prescribes each node [N].
   StressSums find(StressIntegration& integration, const StressTask& task, StressIntegration::Scratches& scratches,
                   std::span<Vec3> reactions);
-  /// Adds to the particles in [first, last) what tiles have done to their rims.
-  void collect(Index first, Index last);
+  /// The forces on the particles in [first, last) with what tiles have done to their rims; `total` begins with `first`.
+  void collect(Index first, Index last, Double4* total) const;
 
  private:
   void act_on_nodes(Index tile, const TileScratch& scratch);

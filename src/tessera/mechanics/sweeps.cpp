@@ -104,42 +104,78 @@ double add_viscous_stresses(const System& s, const Tile& tile, const Tensor* F, 
   return work;
 }
 
-template <class Law>
+/// Histories of the particles from `first` on; lanes beyond `count` repeat the last one and keep nothing.
+template <class Lanes>
+inline LanesHistoryOf<Lanes> histories(const HistorySpan& history, Index first, Index count) {
+  LanesHistoryOf<Lanes> all;
+  for (Index lane = 0; lane < lanes_in<Lanes>; ++lane) {
+    const auto l = static_cast<std::size_t>(lane);
+    if (history.before != nullptr) all.before[l] = history.before + first + std::min(lane, count - 1);
+    if (history.after != nullptr && lane < count) all.after[l] = history.after + first + lane;
+  }
+  return all;
+}
+
+template <class Lanes, class Law>
 inline StressSums elastic_stresses(const System& s, const Tile& tile, const Law& law, const Tensor* F,
                                    const HistorySpan& history, const StressTarget& target) {
+  constexpr Index width = lanes_in<Lanes>;
   const double* volume = s.d.volume.data();
   StressSums sums;
-  Double4 smallest_J{};
+  Lanes smallest_J{}, not_finite{};
   smallest_J += std::numeric_limits<double>::infinity();
-  Double4 not_finite{};
-  for (Index first = tile.begin; first < tile.end; first += 4) {
-    const Index lanes = std::min<Index>(4, tile.end - first);
-    const auto at = [&](Index lane) { return first + std::min(lane, lanes - 1); };
-    const LanesResponse response_4 =
-        response(law, to_lanes(F[at(0)], F[at(1)], F[at(2)], F[at(3)]), history.lanes({at(0), at(1), at(2), at(3)}));
-    smallest_J = smallest_J < response_4.J ? smallest_J : response_4.J;
-    not_finite += response_4.J - response_4.J;
-    const FourColumns P_4 = columns_of(response_4.stress);
-    for (Index lane = 0; lane < lanes; ++lane) {
+  for (Index first = tile.begin; first < tile.end; first += width) {
+    const Index count = std::min(width, tile.end - first);
+    const double* row[width];
+    for (Index lane = 0; lane < width; ++lane) row[lane] = F[first + std::min(lane, count - 1)].m;
+    const LanesResponseOf<Lanes> answer =
+        response(law, lanes_of_rows<Lanes>(row), histories<Lanes>(history, first, count));
+    smallest_J = smallest_J < answer.J ? smallest_J : answer.J;
+    not_finite += answer.J - answer.J;
+    const ColumnsOf<Lanes> P(answer.stress);
+    for (Index lane = 0; lane < count; ++lane) {
       const Index a = first + lane;
-      sums.internal += volume[a] * response_4.energy[lane];
-      if constexpr (HasHistory<Law>) sums.dissipated += volume[a] * response_4.dissipated[lane];
-      target.take(a - tile.begin, P_4.t[lane]);
+      sums.internal += volume[a] * answer.energy[lane];
+      if constexpr (HasHistory<Law>) sums.dissipated += volume[a] * answer.dissipated[lane];
+      target.take(a - tile.begin, P.t[lane]);
     }
   }
-  sums.smallest_J = std::min(std::min(smallest_J[0], smallest_J[1]), std::min(smallest_J[2], smallest_J[3]));
-  sums.finite = std::isfinite(sum(not_finite));
+  double no_number = 0.0;
+  for (Index lane = 0; lane < width; ++lane) {
+    sums.smallest_J = std::min(sums.smallest_J, smallest_J[lane]);
+    no_number += not_finite[lane];
+  }
+  sums.finite = std::isfinite(no_number);
   return sums;
 }
 
-// One clone of each law for every instruction set.
-#define TESSERA_STRESS_KERNEL(Law)                                                                            \
-  TESSERA_KERNEL StressSums stress_kernel(const System& s, const Tile& tile, const Law& law, const Tensor* F, \
-                                          const HistorySpan& history, const StressTarget& target) {           \
-    return elastic_stresses(s, tile, law, F, history, target);                                                \
+// One clone of each law for every instruction set, and for laws that answer in lanes one with registers of 512 bits.
+#define TESSERA_STRESS_KERNEL(Law)                                                                               \
+  TESSERA_KERNEL StressSums stresses_of_four(const System& s, const Tile& tile, const Law& law, const Tensor* F, \
+                                             const HistorySpan& history, const StressTarget& target) {           \
+    return elastic_stresses<Double4>(s, tile, law, F, history, target);                                          \
   }
 TESSERA_FOR_EACH_LAW(TESSERA_STRESS_KERNEL)
 #undef TESSERA_STRESS_KERNEL
+#ifdef TESSERA_WIDE_KERNEL
+#define TESSERA_STRESS_KERNEL(Law)                                                                                     \
+  TESSERA_WIDE_KERNEL StressSums stresses_of_eight(const System& s, const Tile& tile, const Law& law, const Tensor* F, \
+                                                   const HistorySpan& history, const StressTarget& target) {           \
+    return elastic_stresses<Double8>(s, tile, law, F, history, target);                                                \
+  }
+TESSERA_FOR_EACH_LAW_IN_LANES(TESSERA_STRESS_KERNEL)
+#undef TESSERA_STRESS_KERNEL
+#endif
+
+template <class Law>
+StressSums run_stress_kernel(const System& s, const Tile& tile, const Law& law, const Tensor* F,
+                             const HistorySpan& history, const StressTarget& target) {
+#ifdef TESSERA_WIDE_KERNEL
+  if constexpr (InLanes<Law>)
+    if (widest_registers() == Registers::eight_numbers) return stresses_of_eight(s, tile, law, F, history, target);
+#endif
+  return stresses_of_four(s, tile, law, F, history, target);
+}
 
 }  // namespace
 
@@ -148,7 +184,7 @@ StressSums stress_sweep(const System& s, Index k, const Tensor* F, const History
   const Tile& tile = tile_of(s, k);
   const StressTarget target(scratch);
   StressSums sums = visit_law(s.materials[static_cast<std::size_t>(tile.material)].law, history.flow,
-                              [&](const auto& law) { return stress_kernel(s, tile, law, F, history, target); });
+                              [&](const auto& law) { return run_stress_kernel(s, tile, law, F, history, target); });
   sums.dissipated += add_viscous_stresses(s, tile, F, viscous, dt, target);
   return sums;
 }
@@ -194,19 +230,20 @@ TESSERA_KERNEL void force_sweep(const System& s, Index k, const Columns* T, cons
   }
 }
 
-void collect_rims(const Tiles& tiles, const Double4* rim_f, Double4* f, Index begin, Index end) {
+TESSERA_KERNEL void collect_rims(const Tiles& tiles, const Double4* rim_f, const Double4* f, Double4* total,
+                                 Index begin, Index end) {
   const Index* place = tiles.rim_place.data();
-  const Offset last = tiles.rim_offset[static_cast<std::size_t>(end)] - 1;
+  const Offset last = static_cast<Offset>(tiles.rim_place.size()) - 1;
   for (Index a = begin; a < end; ++a) {
     const auto k = static_cast<std::size_t>(a);
-    fetch_to_write<2048>(f + a);
+    fetch_ahead<2048>(f + (a - begin));
     fetch_ahead<1024>(tiles.rim_offset.data() + k);
-    Double4 force = f[a];
+    Double4 force = f[a - begin];
     for (Offset i = tiles.rim_offset[k]; i < tiles.rim_offset[k + 1]; ++i) {
       fetch(rim_f + place[std::min(i + 2 * lookahead, last)]);
       force += rim_f[place[i]];
     }
-    f[a] = force;
+    total[a - begin] = force;
   }
 }
 

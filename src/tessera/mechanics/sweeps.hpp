@@ -95,7 +95,8 @@ StressSums known_stress_sweep(const System& s, Index tile, const Tensor* F, cons
 void force_sweep(const System& s, Index tile, const Columns* T, const Vec3* B, const Vec3* B_aa, Double4* f,
                  Double4* rim_f);
 
-/// Adds to f_a, a in [begin, end), what other tiles have put into their rims.
-void collect_rims(const Tiles& tiles, const Double4* rim_f, Double4* f, Index begin, Index end);
+/// f_a and what other tiles have put into their rims, a in [begin, end); `f` and `total` begin there and may be the
+/// same.
+void collect_rims(const Tiles& tiles, const Double4* rim_f, const Double4* f, Double4* total, Index begin, Index end);
 
 }  // namespace tessera

@@ -3,31 +3,14 @@
 #include <algorithm>
 
 #include "tessera/base/fetch.hpp"
+#include "tessera/base/kernel.hpp"
 #include "tessera/mechanics/sweeps.hpp"
 
 // What the kernels of the sweeps share: values of a tile and its rim by local numbers, four particles at a time.
 
-// One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can. What needs
-// registers of 512 bits is a function of its own, for processors that have them.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__OPTIMIZE_SIZE__) && defined(__OPTIMIZE__)
-#define TESSERA_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), flatten))
-#define TESSERA_WIDE_KERNEL __attribute__((target("arch=x86-64-v4"), flatten))
-#else
-#define TESSERA_KERNEL
-#endif
-
 namespace tessera {
 
 constexpr Index quad = 4;
-
-#ifdef TESSERA_WIDE_KERNEL
-/// The processor runs wide kernels.
-inline bool has_wide_registers() {
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
-}
-#endif
 
 // How far ahead values of the rim are fetched: their addresses jump, so the processor cannot foresee them.
 constexpr Index lookahead = 8;
@@ -53,9 +36,9 @@ inline void fill_nodes(const System& s, Index k, const Double4* x, const Tensor*
     node.value[12] = X[b].x, node.value[13] = X[b].y, node.value[14] = X[b].z;
   };
   for (Index b = tile.begin; b < tile.end; ++b) {
-    fetch_ahead<1152>(F + b);
-    fetch_ahead<1024>(x + b);
-    fetch_ahead<1024>(X + b);
+    fetch_ahead<2880>(F + b);
+    fetch_ahead<2048>(x + b);
+    fetch_ahead<2048>(X + b);
     fill(nodes[b - tile.begin], b);
   }
   const Index own = tile.size(), rim_size = s.tiles.rim_size(k);
@@ -74,6 +57,13 @@ inline Lanes9 to_lanes(const Tensor& a, const Tensor& b, const Tensor& c, const 
   const TwoLanes p0 = pairs(0), p2 = pairs(2), p4 = pairs(4), p6 = pairs(6);
   const Double4 p8{a.m[8], b.m[8], c.m[8], d.m[8]};
   return {p0.first, p2.second, p6.first, p0.second, p4.first, p6.second, p2.first, p4.second, p8};
+}
+
+/// Several tensors, each a row of nine numbers.
+template <class Lanes>
+inline Lanes9Of<Lanes> lanes_of_rows(const double* const (&row)[lanes_in<Lanes>]) {
+  const FourOf<Lanes> m0 = load_fours(row, 0), m4 = load_fours(row, 4), m5 = load_fours(row, 5);
+  return {m0.n0, m0.n3, m4.n2, m0.n1, m4.n0, m4.n3, m0.n2, m4.n1, m5.n3};
 }
 
 /// Adds the viscous stress of particle a, [D 61, 62], to P; returns the work that it has taken since the last time [J].
@@ -119,5 +109,25 @@ inline FourColumns columns_of(const Lanes9& l) {
   for (int k = 0; k < 4; ++k) four.t[k] = {c0.v[k], c1.v[k], c2.v[k]};
   return four;
 }
+
+/// Several tensors column by column.
+template <class Lanes>
+struct ColumnsOf {
+  explicit ColumnsOf(const Lanes9Of<Lanes>& l) {
+    if constexpr (lanes_in<Lanes> == 4) {
+      const FourColumns four = columns_of(l);
+      std::copy(four.t, four.t + 4, t);
+    } else {
+      const FourColumns first = columns_of(half(l, first_half)), second = columns_of(half(l, second_half));
+      std::copy(first.t, first.t + 4, t);
+      std::copy(second.t, second.t + 4, t + 4);
+    }
+  }
+  template <class Half>
+  static Lanes9 half(const Lanes9Of<Lanes>& l, const Half& h) {
+    return {h(l.xx), h(l.xy), h(l.xz), h(l.yx), h(l.yy), h(l.yz), h(l.zx), h(l.zy), h(l.zz)};
+  }
+  Columns t[lanes_in<Lanes>];
+};
 
 }  // namespace tessera
