@@ -94,7 +94,9 @@ const Quantity& find_quantity(std::string_view name, const Origin& origin) {
   const auto found = std::find_if(table.begin(), table.end(), [&](const Quantity& q) { return q.name == wanted; });
   if (found != table.end()) return *found;
   const std::vector<std::string> known = known_names();
-  throw InputError(origin, fmt::format("unknown quantity {}{}; known are {}", quoted(name), did_you_mean(name, known),
+  std::vector<std::string> hints = known;
+  hints.emplace_back("stress");
+  throw InputError(origin, fmt::format("unknown quantity {}{}; known are {}", quoted(name), did_you_mean(name, hints),
                                        list_of(known, "and")));
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "tessera/simulation/body_builder.hpp"
@@ -89,6 +90,19 @@ BodyModel place_body(const BuiltBody& b, const Discretization& before) {
   return m;
 }
 
+/// In plane strain nothing varies across the plane. What counts is whether neighbours tell how F varies in both
+/// directions of it; where they do not, the map to the points is singular there.
+Index unresolved_in_plane(const CellGradients& gradients) {
+  constexpr double singular = 1e-6;  // resolved directions differ by less than a thousand
+  Index cells = 0;
+  for (const Mat3& A : gradients.to_points) {
+    const double determinant = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
+    const double size = A(0, 0) * A(0, 0) + A(0, 1) * A(0, 1) + A(1, 0) * A(1, 0) + A(1, 1) * A(1, 1);
+    if (!(std::abs(determinant) > singular * size)) ++cells;
+  }
+  return cells;
+}
+
 /// Cell integration falls back where neighbours do not tell how F varies.
 void note_unresolved_cells(Model& model) {
   const auto& gradients = model.system.gradients;
@@ -152,6 +166,8 @@ Model build_model(const Case& c) {
   model.loads.tractions = Tractions(all, parts.sites);
   model.loads.gravity = c.gravity;
   model.system = make_system(std::move(all), c.materials, model.material_of, 0, c.method.volumetric);
+  if (c.method.dimension == 2 && model.system.gradients)
+    model.system.gradients->unresolved = unresolved_in_plane(*model.system.gradients);
   note_unresolved_cells(model);
   return model;
 }

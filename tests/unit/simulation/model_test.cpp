@@ -129,11 +129,21 @@ TEST(TwoDimensions, AreASymmetricSlab) {
   }
 }
 
-/// Across the slab nothing tells how F varies, which is said.
-TEST(TwoDimensions, AreTakenAsConstantAcrossByCellIntegration) {
+/// Across the slab nothing tells how F varies. In two dimensions it does not vary there, so nothing is missed.
+TEST(TwoDimensions, MissNothingAcrossTheSlab) {
   Case c = cube_case(Method::consistent, {4, 3, 1}, 0.2);
   c.method.dimension = 2;
   c.method.integration = Integration::cell;
+  const Model model = build_model(c);
+  EXPECT_EQ(model.system.gradients->unresolved, 0);
+  for (const std::string& note : model.notes) EXPECT_FALSE(contains(note, "cell integration")) << note;
+}
+
+/// In three dimensions F may vary across a single layer, which is said.
+TEST(OneLayer, IsTakenAsConstantAcrossByCellIntegration) {
+  Case c = cube_case(Method::consistent, {4, 3, 1}, 0.0);
+  c.method.integration = Integration::cell;
+  c.boundary = {condition({"-z", "+z"}, Condition::symmetric)};
   const Model model = build_model(c);
   EXPECT_EQ(model.system.gradients->unresolved, 12);
   ASSERT_FALSE(model.notes.empty());
