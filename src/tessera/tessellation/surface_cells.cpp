@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <tuple>
 
 #include "tessera/base/error.hpp"
 #include "tessera/parallel/collect.hpp"
 #include "tessera/parallel/workspaces.hpp"
 #include "tessera/tessellation/cell_closure.hpp"
+#include "tessera/tessellation/surface_face_list.hpp"
 #include "tessera/tessellation/surface_fence.hpp"
 #include "tessera/tessellation/surface_outline.hpp"
 #include "tessera/tessellation/surface_parts.hpp"
@@ -18,9 +18,8 @@
 namespace tessera {
 namespace {
 
-constexpr double kRoundoffFace = 1e-14;  // of V^(2/3): faces smaller than this are round-off
-constexpr double kFilled = 1e-8;         // of the volume: cells that miss more do not fill the solid
-constexpr double kFirstFence = 2.0;      // distance of the first fence, in spacings
+constexpr double kFilled = 1e-8;     // of the volume: cells that miss more do not fill the solid
+constexpr double kFirstFence = 2.0;  // distance of the first fence, in spacings
 
 std::string named(const Generators& points, Index a) { return "particle " + points.named(a); }
 
@@ -30,29 +29,6 @@ struct KeptFace {
   FlatArea piece;
 };
 
-/// A face where it is stored; `second` is null where second moments are not wanted.
-struct StoredFace {
-  Index neighbour, patch;
-  const FlatArea* piece;
-  const Symmetric3* second;
-};
-
-/// A face as it enters the list of all: the pair whose bisector it lies in, or the flat patch of the surface.
-struct ListedFace {
-  Index a, b;  // owners now; b is -1 on the boundary
-  Index low, high;
-  Index cell;  // of which `piece` is a face; positions in it are relative to its particle
-  int sign;    // -1 where the piece's area points from b to a
-  const FlatArea* piece;
-  const Symmetric3* second;
-};
-
-/// A second moment about a point at `shift` from the new one, turned to that: `size` and `moment` are those about the
-/// old one.
-Symmetric3 moved(const Symmetric3& second, const Vec3& moment, double size, const Vec3& shift) {
-  return second + symmetric_product(moment, shift) + size * square(shift);
-}
-
 class SurfaceAssembly {
  public:
   SurfaceAssembly(const Generators& points, const SurfaceIndex& index, Moments moments, Pictures pictures)
@@ -61,7 +37,8 @@ class SurfaceAssembly {
         moments_(moments),
         pictures_(pictures),
         planes_(find_planes(index.surface())),
-        solid_volume_(volume(index.surface())) {}
+        solid_volume_(volume(index.surface())),
+        listed_(points_, planes_) {}
 
   SurfaceCells assemble() {
     check_particles();
@@ -151,19 +128,14 @@ class SurfaceAssembly {
     if (!(V > 0.0)) throw GeometryError("the Voronoi cell of " + named(points_, a) + " is empty");
     if (cell.parts.size() > 1) split_[i] = std::make_unique<CutCell>(cell);
     for (const CutFace& face : cell.faces) {
-      if (face.neighbour >= static_cast<Index>(points_.size()) && std::abs(face.piece.size) > smallest_face(a))
+      if (face.neighbour >= static_cast<Index>(points_.size()) &&
+          std::abs(face.piece.size) > smallest_face(point(a), V))
         return false;
       if (cell.parts.size() > 1 || (face.neighbour >= 0 && face.neighbour < a)) continue;
       out.add({face.neighbour, face.patch, face.piece});
       if (!kept_second_.empty()) kept_second_[i].push_back(face.piece.second);
     }
     return true;
-  }
-
-  /// What a face needs to be more than round-off [m2].
-  double smallest_face(Index a) const {
-    const double V = result_.cells.volume[static_cast<std::size_t>(a)], size = std::cbrt(V);
-    return std::max(kRoundoffFace * size, round_off(point(a), V)) * size;
   }
 
   /// Hands parts that are cut off from their particles to other cells.
@@ -206,16 +178,6 @@ class SurfaceAssembly {
     outlines_ = {};
   }
 
-  void list(Index cell, const StoredFace& face, Index a, Index b) {
-    if (a == b) return;
-    const bool is_reversed = b >= 0 && a > b;
-    if (is_reversed) std::swap(a, b);
-    if (std::abs(face.piece->size) < smallest_face(a)) return;
-    const auto [low, high] =
-        face.neighbour >= 0 ? std::minmax(cell, face.neighbour) : std::minmax(face.patch, face.patch);
-    listed_.push_back({a, b, low, high, cell, is_reversed ? -1 : 1, face.piece, face.second});
-  }
-
   void list_faces() {
     for (Index a = 0; a < static_cast<Index>(points_.size()); ++a) {
       const auto i = static_cast<std::size_t>(a);
@@ -229,10 +191,13 @@ class SurfaceAssembly {
           list(a, {row[f].neighbour, row[f].patch, &row[f].piece, with_faces() ? &kept_second_[i][f] : nullptr}, a,
                row[f].neighbour);
     }
-    std::stable_sort(listed_.begin(), listed_.end(), [this](const ListedFace& f, const ListedFace& g) {
-      return (f.b < 0) != (g.b < 0) ? g.b < 0 : key(f) < key(g);
-    });
-    merge_listed();
+    listed_.move_to(result_.cells);
+    faces_ = {};
+    kept_second_ = {};
+  }
+
+  void list(Index cell, const StoredFace& face, Index a, Index b) {
+    listed_.add(cell, face, a, b, result_.cells.volume);
   }
 
   void list_split(Index a, const CutFace& face) {
@@ -245,55 +210,6 @@ class SurfaceAssembly {
   }
 
   bool with_faces() const { return moments_ == Moments::second_of_faces; }
-
-  Index side_of(const ListedFace& face) const { return planes_.side[static_cast<std::size_t>(face.low)]; }
-  std::tuple<Index, Index, Index, Index> key(const ListedFace& face) const {
-    if (face.b < 0) return {face.a, side_of(face), face.low, 0};
-    return {face.a, face.b, face.low, face.high};
-  }
-
-  /// Puts the pieces of one face together; positions are relative to the particle of its owner a.
-  FlatPiece together(std::span<const ListedFace> pieces) const {
-    FlatPiece sum;
-    for (const ListedFace& f : pieces) {
-      const FlatArea& piece = *f.piece;
-      const Vec3 shift = point(f.cell) - point(f.a);
-      sum.area += static_cast<double>(f.sign) * piece.area;
-      sum.moment += piece.moment + piece.size * shift;
-      sum.size += piece.size;
-      if (f.second != nullptr) sum.second += moved(*f.second, piece.moment, piece.size, shift);
-    }
-    return sum;
-  }
-
-  void merge_listed() {
-    for (auto first = listed_.begin(); first != listed_.end();) {
-      auto next = first + 1;
-      while (next != listed_.end() && (next->b < 0) == (first->b < 0) && key(*next) == key(*first)) ++next;
-      add_face(*first, together({first, next}));
-      first = next;
-    }
-    listed_ = {};
-    faces_ = {};
-    kept_second_ = {};
-  }
-
-  void add_face(const ListedFace& f, const FlatPiece& piece) {
-    Cells& cells = result_.cells;
-    const Vec3 C = point(f.a) + piece.moment / piece.size;
-    if (f.b < 0)
-      cells.boundary.push_back({f.a, side_of(f), piece.area, C});
-    else
-      cells.interior.push_back(interior_face(f, piece.area, C));
-    if (with_faces())
-      (f.b < 0 ? cells.boundary_second_moment : cells.interior_second_moment)
-          .push_back(piece.second - (1.0 / piece.size) * square(piece.moment));
-  }
-
-  InteriorFace interior_face(const ListedFace& f, const Vec3& area, const Vec3& centroid) const {
-    const bool bisects = f.low == f.a && f.high == f.b;
-    return {f.a, f.b, area, centroid, bisects, bisects ? cut_of(points_, f.a, f.b) : 0.5};
-  }
 
   Generators points_;
   const SurfaceIndex& index_;
@@ -308,7 +224,7 @@ class SurfaceAssembly {
   std::vector<Symmetric3> second_;                    // moments about the particle, if wanted
   std::vector<std::vector<Polyhedron>> outlines_;     // per cell, per part, if wanted
   std::unique_ptr<SplitCells> owners_;
-  std::vector<ListedFace> listed_;
+  SurfaceFaceList listed_;
   SurfaceCells result_;
 };
 
