@@ -66,6 +66,11 @@ class Usage(CliTest):
         self.check_fails(USAGE, '"case.out" is a file', arguments=["run", "case.toml", "--force"])
         self.assertEqual((self.folder / "case.out").read_text(), "precious")
 
+    def test_result_folder_cannot_be_made(self):
+        self.write(CASE)
+        self.write("precious", "notes")
+        self.check_fails(USAGE, "notes/out: cannot be made", "-o", arguments=["run", "case.toml", "-q", "-o", "notes/out"])
+
     def test_nothing_to_resume(self):
         self.write(CASE)
         self.check_fails(USAGE, "no result folder", arguments=["run", "case.toml", "--resume"])
@@ -150,6 +155,20 @@ class BadCases(CliTest):
 
     def test_formula(self):
         self.check_bad('"0.01*t"', '"0.01*u"', "case.toml:17:23: boundary.1.displacement.0: ", 'unknown name "u"')
+
+    def test_unit_in_a_formula(self):
+        self.check_bad('"0.01*t"', '"0.01 m*t"', "case.toml:17:17: boundary.1.displacement.0: ", "numbers in formulas")
+
+    def test_formula_without_a_value_at_the_start(self):
+        self.check_bad('"0.01*t"', '"log(t)"', "case.toml:17:17: boundary.1.displacement.0: ", "is -inf at t = 0 s")
+
+    def test_point_probe_far_outside(self):
+        point = '[[probe]]\nname = "tip"\ntype = "point"\nat = [100, 0, 0]\n[[probe]]'
+        self.check_bad("[[probe]]", point, "case.toml:23:1: probe.0: ", "away from the nearest particle")
+
+    def test_reaction_of_nothing(self):
+        self.check_bad('type = "reaction"\nwhere = "+x"', 'type = "reaction"\nwhere = "+y"',
+                       "case.toml:23:1: probe.0: ", "takes nothing of body")
 
     def test_bad_choice(self):
         self.check_bad('"fixed"', '"fixd"', "case.toml:14:13: boundary.0.condition: ", 'did you mean "fixed"?')

@@ -177,6 +177,14 @@ struct Formula::Impl {
 
   bool constant() const { return !uses_time && !uses_position; }
 
+  /// What has no value before the first step is the case's fault, later the run's.
+  [[noreturn]] void refuse(double found) const {
+    const std::string what =
+        fmt::format("formula {} is {} at t = {} s, X = ({}, {}, {}) m", quoted(text), found, t, X.x, X.y, X.z);
+    if (t == 0.0) throw InputError(origin, what);
+    throw RunError(describe(origin) + what);
+  }
+
  private:
   void define_names() {
     parser.ClearFun();
@@ -245,9 +253,7 @@ double Formula::operator()(double t, const Vec3& X, const Vec3& N) const {
   impl_->X = X;
   impl_->N = N;
   const double value = impl_->parser.Eval();
-  if (!std::isfinite(value))
-    throw RunError(fmt::format("{}formula {} is {} at t = {} s, X = ({}, {}, {}) m", describe(impl_->origin),
-                               quoted(impl_->text), value, t, X.x, X.y, X.z));
+  if (!std::isfinite(value)) impl_->refuse(value);
   return value;
 }
 

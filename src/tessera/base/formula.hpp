@@ -32,7 +32,7 @@ class Formula {
   Formula& operator=(Formula&&) noexcept;
   ~Formula();
 
-  /// The value at time t and material position X. Throws RunError when it is not finite.
+  /// The value at time t and material position X. Throws when it is not finite: InputError at t = 0, RunError later.
   double operator()(double t, const Vec3& X) const { return (*this)(t, X, Vec3{}); }
   /// The same on a face with the outward unit normal N.
   double operator()(double t, const Vec3& X, const Vec3& N) const;

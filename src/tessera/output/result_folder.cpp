@@ -67,7 +67,8 @@ void prepare_result_folder(const std::string& directory, ExistingResult existing
     if (fs::exists(directory) || existing == ExistingResult::resume) return check_existing(directory, existing);
     fs::create_directories(directory);
   } catch (const fs::filesystem_error& error) {
-    throw RunError(fmt::format("{}: cannot be made the result folder: {}", directory, error.code().message()));
+    throw UsageError(fmt::format("{}: cannot be made the result folder: {}; -o names another one", directory,
+                                 error.code().message()));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "tessera/parallel/parallel.hpp"
 #include "tessera/simulation/engine.hpp"
 #include "tessera/simulation/inertia.hpp"
+#include "tessera/simulation/recorder.hpp"
 #include "tessera/simulation/run.hpp"
 
 namespace tessera {
@@ -31,6 +32,11 @@ double seconds_per_step(const Model& model) {
     best = std::min(best, seconds_since(start));
   }
   return best;
+}
+
+/// Throws InputError where a probe finds nothing to read.
+void refuse_useless_probes(const Case& c, const Model& model, const Engine& engine) {
+  if (!c.probes.empty()) HistoryRows(c, model, engine, engine.snapshot());
 }
 
 struct Findings {
@@ -62,22 +68,21 @@ Findings examine(const Case& c) {
   f.sides = model.sides;
   f.quality = model.quality;
   f.notes = model.notes;
-  // The control of a copy that is never refused: check also tells the limit to those whose fixed step is too long.
+  // A copy that is never refused: check also tells the limit to those whose fixed step is too long.
   TimeSpec spec = c.time;
   if (auto* fixed = std::get_if<FixedStep>(&spec.step)) fixed->force = true;
-  const State state = reference_state(model.system);
-  const auto walls = model.loads.motion.positions();
-  const auto scaling = scaled_mass(model, spec, state);
-  const auto mass = inertia(model, scaling);
-  const StepControl::Memory step = StepControl(spec, model.system, state, walls, mass).memory();
+  const Engine engine(model, spec);
+  refuse_useless_probes(c, model, engine);
+  const StepControl::Memory& step = engine.step_control().memory();
   f.dt = step.dt;
   if (const auto* fixed = std::get_if<FixedStep>(&c.time.step); fixed && !fixed->force && step.dt > step.limit)
     f.notes.push_back(fmt::format(
         "warning: a run refuses time.step = {:g} s, which is above the spectral limit of {:g} s; take a smaller one, "
         "\"auto\" or \"auto-spectral\" (or force = true)",
         step.dt, step.limit));
-  f.limit =
-      stable_step(model.system, SpectralEstimator(model.system, mass).largest_frequency(state, walls, f.shortest));
+  f.limit = stable_step(
+      model.system, SpectralEstimator(model.system, inertia(model, engine.mass_scaling()))
+                        .largest_frequency(reference_state(model.system), model.loads.motion.positions(), f.shortest));
   f.steps = c.time.end > 0.0 ? std::ceil(c.time.end / f.dt) : 0.0;
   f.run_seconds = f.steps * seconds_per_step(model);
   f.memory = peak_memory_bytes();

@@ -58,6 +58,11 @@ Engine::Engine(Model& model, const TimeSpec& spec)
   if (model.loads.gravity != Vec3{}) x0_.assign(state_.x.begin(), state_.x.begin() + model.system.particles());
   evaluate(0.0);
   verify_deformation();
+  if (!std::isfinite(stored_energy()))
+    throw RunError(
+        "the energy of the initial state is not finite; are the numbers too large that [[initial]] and [[boundary]] "
+        "give "
+        "for t = 0?");
 }
 
 void Engine::evaluate(double dt) {

@@ -123,6 +123,13 @@ TEST(Formula, ReportsValuesThatAreNotFinite) {
     EXPECT_EQ(std::string(error.what()),
               "case.toml:3:10: boundary.0.displacement.1: formula \"1/(X - 2)\" is inf at t = 0.5 s, X = (2, 3, 4) m");
   }
+  try {
+    f(0.0, X);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "case.toml:3:10: boundary.0.displacement.1: formula \"1/(X - 2)\" is inf at t = 0 s, X = (2, 3, 4) m");
+  }
 }
 
 }  // namespace

@@ -63,9 +63,9 @@ TEST(ResultFolder, AFileIsNoFolder) {
               folder.file("out") + ": is a file, not a folder for results; -o names another one");
 }
 
-TEST(ResultFolder, WhatCannotBeMadeIsARunError) {
+TEST(ResultFolder, WhatCannotBeMadeIsAUsageError) {
   const std::string message =
-      sample::message_of<RunError>([] { prepare_result_folder("/proc/no_such_place/out", ExistingResult::refuse); });
+      sample::message_of<UsageError>([] { prepare_result_folder("/proc/no_such_place/out", ExistingResult::refuse); });
   EXPECT_EQ(message.find("/proc/no_such_place/out: cannot be made the result folder: "), 0u) << message;
 }
 

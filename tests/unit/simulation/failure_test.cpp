@@ -109,6 +109,14 @@ TEST(FailingRuns, RefuseAnInvertedStart) {
   EXPECT_TRUE(contains(message, "prescribes at t = 0 must go together")) << message;
 }
 
+TEST(FailingRuns, RefuseAStartOfInfiniteEnergy) {
+  Case c = cube_case(Method::consistent);
+  c.boundary = {condition({"+z"}, PrescribedDisplacement{components(formulas("1e300", "1e300", "1e300"))})};
+  EXPECT_TRUE(contains(message_of<RunError>([&] { Running run(c); }), "the energy of the initial state is not finite"));
+  EXPECT_TRUE(
+      contains(message_of<RunError>([&] { check_case(c, 1); }), "the energy of the initial state is not finite"));
+}
+
 TEST(FixedSteps, AboveTheLimitAreRefusedUnlessForced) {
   for (Method method : all_methods) {
     Case c = cube_case(method);
