@@ -42,7 +42,9 @@ incompressible:
 	TESSERA=build/release/bin/tessera /usr/bin/python3 scripts/incompressible.py $(INCOMPRESSIBLE_RUNS)
 
 check:
+	@echo "== dev: build"
 	$(MAKE) --no-print-directory build PRESET=dev
+	@echo "== dev: unit and house tests"
 	ctest --preset dev -L 'unit|house'
 	scripts/lint.sh build/dev
 

@@ -20,8 +20,7 @@ elif [ ! -f "$build/compile_commands.json" ]; then
   echo "clang-tidy: $build/compile_commands.json is missing; configure first (cmake --preset dev)" >&2
   status=1
 else
-  find src -name '*.cpp' -print0 | sort -z |
-    xargs -0 -n 1 -P "${JOBS:-$(nproc)}" clang-tidy -p "$build" --quiet --warnings-as-errors='*' || status=1
+  python3 scripts/tidy.py "$build" || status=1
 fi
 
 [ $status -eq 0 ] && echo "lint: no faults" || echo "lint: FAILED" >&2
