@@ -103,21 +103,29 @@ std::vector<double> Forces::smallest_J(const State& state) const {
   return J;
 }
 
-Forces::Internal Forces::internal(const State& state) const {
+void Forces::find_internal(const State& state, Internal& result) const {
   const System& s = system_;
   const auto particles = static_cast<std::size_t>(s.particles());
-  Internal result{Field<Tensor>(particles), {}, {}};
+  result.P.resize(particles);
   if (has_points(s)) result.energy.resize(particles);
   StressTask task =
       once_more(state, {.mean = result.P.data(), .energy = has_points(s) ? result.energy.data() : nullptr});
   if (!viscous_.P_previous.empty()) task.viscous_stress = viscous_.P_previous.data();
-  StressForces forces(s);
+  if (!result.memory) result.memory = std::make_unique<StressForces>(s);
+  StressForces& forces = *result.memory;
+  if (!result.force.empty()) forces.f().swap(result.force);
+  forces.clear();
   std::vector<Vec3> reactions(static_cast<std::size_t>(s.boundary_nodes()));
   forces.find(*integration_->apart(), task, scratches_, reactions);
   parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
     forces.collect(static_cast<Index>(begin), static_cast<Index>(end), forces.f().data() + begin);
   });
-  result.force = std::move(forces.f());
+  forces.f().swap(result.force);
+}
+
+Forces::Internal Forces::internal(const State& state) const {
+  Internal result;
+  find_internal(state, result);
   return result;
 }
 

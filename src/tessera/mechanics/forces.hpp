@@ -54,12 +54,15 @@ class Forces {
   const StressSums& sums() const { return sums_; }                   // of the last evaluation
 
   /// P_a of every particle (the mean over its stress points) with its viscous part [Pa], and what it exerts on the
-  /// particles [N] (reactions of boundary faces included). For output, at the state of the last evaluation.
+  /// particles [N] (reactions of boundary faces included).
   struct Internal {
-    Field<Tensor> P;
+    RawField<Tensor> P;
     Field<Double4> force;
     std::vector<double> energy;  // mean of the stored energy over each cell [J/m3]; empty where it is that of F_a
+    std::unique_ptr<StressForces> memory;  // for the next time
   };
+  /// For output, at the state of the last evaluation. Uses the memory of `result` again.
+  void find_internal(const State& state, Internal& result) const;
   Internal internal(const State& state) const;
 
   /// The smallest det F in each particle's cell: of its mean F, or of its stress points, at the state of the last

@@ -7,6 +7,19 @@
 
 namespace tessera {
 
+namespace {
+
+/// Reads the tile's part of B, so that it is in the cache from which the force sweep takes it in no order. (So many
+/// prefetches at once would be dropped.)
+void read_gradient_vectors(const System& s, Index tile, const RawField<Vec3>& B) {
+  constexpr std::size_t cache_line = 64;
+  const auto* line = reinterpret_cast<const volatile char*>(B.data() + tile_of(s, tile).slot);
+  const auto* end = reinterpret_cast<const volatile char*>(B.data() + s.tiles.end_of(tile).slot);
+  for (; line < end; line += cache_line) static_cast<void>(*line);
+}
+
+}  // namespace
+
 bool treats_stresses_apart(const System& s) {
   const bool direct_reactions = s.d.boundary_force == BoundaryForce::direct && s.boundary_nodes() > 0;
   return direct_reactions || s.d.direct.has_value();
@@ -22,10 +35,18 @@ StressForces::StressForces(const System& s)
   if (split_) owners_P_.resize(s.owners.size());
 }
 
+void StressForces::clear() {
+  for (Field<Double4>* forces : {&f_, &R_})
+    parallel::for_ranges(0, static_cast<std::int64_t>(forces->size()), [&](std::int64_t begin, std::int64_t end) {
+      std::fill(forces->begin() + begin, forces->begin() + end, Double4{});
+    });
+}
+
 StressSums StressForces::find(StressIntegration& integration, const StressTask& task,
                               StressIntegration::Scratches& scratches, std::span<Vec3> reactions) {
   StressSums sums = integration.gather(task);
   sums += sum_tiles(s_, scratches, [&](Index tile, TileScratch& scratch) {
+    if (task.bonds.f == nullptr) read_gradient_vectors(s_, tile, s_.tiles.B);  // otherwise bonds have
     const StressSums of_tile = integration.stresses(task, tile, scratch);
     act_on_nodes(tile, scratch);
     integration.turn_to_particles(tile, scratch);

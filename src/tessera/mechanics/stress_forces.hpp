@@ -18,6 +18,8 @@ class StressForces {
 
   Field<Double4>& f() { return f_; }  // [N]; what bonds have put there stays
   const Field<Double4>& f() const { return f_; }
+  /// Takes forces away, where no bonds put theirs.
+  void clear();
   BondTarget bonds() { return {f_.data(), R_.data()}; }
 
   /// Everything that the integration makes of the task, but for rims: bonds, stresses and their forces, which are

@@ -36,6 +36,7 @@ struct ChunkedArray {
 
   std::size_t row_bytes() const { return columns * width_of(type); }
   std::size_t chunk_bytes() const { return chunk_rows * row_bytes(); }
+  std::size_t plane_bytes() const { return chunk_rows * columns; }  // one byte of each number of a chunk
 };
 
 }  // namespace tessera

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
+#include <cstring>
+
+#include "tessera/base/kernel.hpp"
 
 namespace tessera {
 
@@ -11,10 +14,10 @@ namespace {
 using Bytes = std::span<const unsigned char>;
 
 constexpr std::size_t literals = 256, end_of_block = 256, first_length = 257, symbols = 286;
-constexpr int longest_code = 15, longest_length_code = 7;
+constexpr int longest_code = 14;  // four of them fit into what BitWriter takes at once
+constexpr int longest_length_code = 7;
 constexpr std::size_t shortest_run = 3, longest_run = 258;
 constexpr std::size_t few = 1024;  // a table of codes would hardly pay
-constexpr double noise = 7.5;      // bits a byte above which codes would save less than a sixteenth
 
 /// RFC 1951, 3.2.5: lengths of runs from which the codes 257, 258 .. count on, and the bits that tell how far.
 constexpr std::array<std::uint16_t, 29> run_base = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
@@ -35,11 +38,24 @@ struct Run {
   std::uint16_t repeated;  // 0, or shortest_run .. longest_run
 };
 
+/// Where the run that begins at `begin` ends.
+std::size_t end_of_run(Bytes bytes, std::size_t begin) {
+  const std::uint64_t repeated = 0x0101010101010101U * bytes[begin];
+  const std::size_t most = std::min(bytes.size(), begin + 1 + longest_run);
+  std::size_t end = begin + 1;
+  for (; end + sizeof repeated <= most; end += sizeof repeated) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + end, sizeof word);
+    if (word != repeated) return end + static_cast<std::size_t>(std::countr_zero(word ^ repeated)) / 8;
+  }
+  while (end < most && bytes[end] == bytes[begin]) ++end;
+  return end;
+}
+
 std::vector<Run> runs_of(Bytes bytes) {
   std::vector<Run> runs;
   for (std::size_t i = 0; i < bytes.size();) {
-    std::size_t end = i + 1;
-    while (end < bytes.size() && end - i <= longest_run && bytes[end] == bytes[i]) ++end;
+    std::size_t end = end_of_run(bytes, i);
     if (end - i <= shortest_run) end = i + 1;
     runs.push_back({bytes[i], static_cast<std::uint16_t>(end - i - 1)});
     i = end;
@@ -72,16 +88,16 @@ Counts counts_of(std::span<const Run> runs) {
   return counts;
 }
 
-/// Of the bytes' distribution, from some of them [bits].
-double entropy(Bytes bytes) {
-  constexpr std::size_t stride = 8;
+/// Codes would hardly save more than an eighth: pairs among some of the bytes are equal less than twice as often as
+/// they were if all values were equally likely.
+bool is_noise(Bytes bytes) {
+  constexpr std::size_t stride = 31;  // no multiple of the number of components, which take turns
   std::array<std::uint32_t, literals> counts{};
   for (std::size_t i = 0; i < bytes.size(); i += stride) ++counts[bytes[i]];
-  const double all = static_cast<double>((bytes.size() + stride - 1) / stride);
-  double sum = 0.0;
-  for (const std::uint32_t count : counts)
-    if (count > 0) sum -= count / all * std::log2(count / all);
-  return sum;
+  const std::uint64_t samples = (bytes.size() + stride - 1) / stride;
+  std::uint64_t equal = 0;
+  for (const std::uint32_t count : counts) equal += std::uint64_t{count} * count;
+  return literals * (equal - samples) < 2 * samples * (samples - 1);
 }
 
 /// The lengths of a block's codes in the alphabet that tells them: a length, or 18 or 17 for many or few absent
@@ -130,21 +146,33 @@ std::size_t coded_size(const Counts& counts, const HuffmanCode& code) {
   return bits / 8;
 }
 
+/// A byte's code, and in the higher half its length.
+using CodeTable = std::array<std::uint32_t, literals>;
+
+CodeTable table_of(const HuffmanCode& code) {
+  CodeTable table{};
+  for (std::size_t s = 0; s < literals; ++s) table[s] = code.bits[s] | std::uint32_t{code.lengths[s]} << 16U;
+  return table;
+}
+
+/// Appends the codes of whole groups of four bytes; returns how many bytes that are.
+TESSERA_KERNEL std::size_t put_fours(BitWriter& out, Bytes bytes, const CodeTable& table) {
+  BitWriter writer = out;  // its state stays in registers: out's might be what it writes
+  std::size_t i = 0;
+  for (; i + 4 <= bytes.size(); i += 4) {
+    const std::uint32_t a = table[bytes[i]], b = table[bytes[i + 1]], c = table[bytes[i + 2]], d = table[bytes[i + 3]];
+    const std::uint64_t first = (a & 0xffffU) | std::uint64_t{b & 0xffffU} << (a >> 16U);
+    const std::uint64_t second = (c & 0xffffU) | std::uint64_t{d & 0xffffU} << (c >> 16U);
+    const unsigned length = (a >> 16U) + (b >> 16U);
+    writer.put(first | second << length, length + (c >> 16U) + (d >> 16U));
+  }
+  out = writer;
+  return i;
+}
+
 void put_coded(BitWriter& out, Bytes bytes, const HuffmanCode& code) {
   put_head(out, code);
-  struct Entry {
-    std::uint32_t bits, length;
-  };
-  std::array<Entry, literals> table{};  // what is needed of a byte in one place
-  for (std::size_t s = 0; s < literals; ++s) table[s] = {code.bits[s], code.lengths[s]};
-  std::size_t i = 0;
-  for (; i + 3 <= bytes.size(); i += 3) {
-    const Entry a = table[bytes[i]], b = table[bytes[i + 1]], c = table[bytes[i + 2]];
-    const std::uint64_t bits =
-        a.bits | std::uint64_t{b.bits} << a.length | std::uint64_t{c.bits} << (a.length + b.length);
-    out.put(bits, a.length + b.length + c.length);
-  }
-  for (; i < bytes.size(); ++i) code.put(out, bytes[i]);
+  for (std::size_t i = put_fours(out, bytes, table_of(code)); i < bytes.size(); ++i) code.put(out, bytes[i]);
   code.put(out, end_of_block);
 }
 
@@ -177,9 +205,9 @@ void put_stored(BitWriter& out, Bytes bytes) {
 }  // namespace
 
 void put_block(BitWriter& out, std::span<const unsigned char> bytes) {
-  if (bytes.size() < few || entropy(bytes) > noise) return put_stored(out, bytes);
+  if (bytes.size() < few || is_noise(bytes)) return put_stored(out, bytes);
   const Counts counts = counts_of(bytes);
-  if (*std::max_element(counts.begin(), counts.end()) > bytes.size() / 2) return put_runs(out, bytes);
+  if (*std::max_element(counts.begin(), counts.end()) > bytes.size() / 16 * 15) return put_runs(out, bytes);
   const HuffmanCode code = huffman_code(counts, longest_code);
   if (coded_size(counts, code) >= bytes.size()) return put_stored(out, bytes);
   put_coded(out, bytes, code);

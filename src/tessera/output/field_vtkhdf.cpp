@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
+#include "tessera/output/byte_planes.hpp"
 #include "tessera/output/hdf5_image.hpp"
 #include "tessera/parallel/parallel.hpp"
 
@@ -27,33 +27,14 @@ ChunkedArray shaped(ElementType type, std::size_t rows, std::size_t columns) {
   return array;
 }
 
-template <class T>
-void convert(std::span<const double> values, std::byte* bytes) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const T value = static_cast<T>(values[i]);
-    std::memcpy(bytes + i * sizeof(T), &value, sizeof(T));
-  }
-}
-
-void convert(std::span<const double> values, ElementType type, std::byte* bytes) {
-  switch (type) {
-    case ElementType::float32:
-      return convert<float>(values, bytes);
-    case ElementType::float64:
-      return convert<double>(values, bytes);
-    case ElementType::int32:
-      return convert<std::int32_t>(values, bytes);
-    case ElementType::int64:
-      return convert<std::int64_t>(values, bytes);
-    case ElementType::uint8:
-      return convert<std::uint8_t>(values, bytes);
-  }
-}
-
-void compress(PlaneDeflater& deflater, const ChunkedArray& array, std::span<const std::byte> bytes, Chunk& chunk) {
+void compress(PlaneDeflater& deflater, const ChunkedArray& array, std::span<const unsigned char> planes, Chunk& chunk) {
   const bool floating = array.type == ElementType::float32 || array.type == ElementType::float64;
-  const std::size_t width = width_of(array.type);
-  floating ? deflater.numbers(bytes, width, chunk) : deflater.integers(bytes, width, chunk);
+  floating ? PlaneDeflater::numbers(planes, width_of(array.type), chunk) : deflater.integers(planes, chunk);
+}
+
+/// The same stress counts several times.
+bool comes_from_cauchy_stress(const Quantity& quantity) {
+  return quantity.name == "cauchy_stress" || quantity.name == "von_mises" || quantity.name == "pressure";
 }
 
 VtkhdfFrame::Array named(const std::string& name, ChunkedArray&& array) {
@@ -118,21 +99,22 @@ void VtkhdfFrames::compress_block(const SnapshotSource& source, std::span<const 
   const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
   const std::size_t begin = block * block_rows;
   const std::size_t end = std::min(begin + block_rows, static_cast<std::size_t>(source.particles));
-  work->bytes.resize(std::max(work->bytes.size(), columns.size()));
+  work->planes.resize(std::max(work->planes.size(), columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    work->bytes[c].resize(arrays[c]->chunk_bytes());
-    const std::size_t used = (end - begin) * arrays[c]->row_bytes();
-    std::fill(work->bytes[c].begin() + static_cast<std::ptrdiff_t>(used), work->bytes[c].end(), std::byte{0});
+    work->planes[c].resize(arrays[c]->chunk_bytes());
+    if (end - begin < arrays[c]->chunk_rows) std::fill(work->planes[c].begin(), work->planes[c].end(), 0);
   }
+  const bool stressed = std::any_of(columns.begin(), columns.end(),
+                                    [](const Column& column) { return comes_from_cauchy_stress(*column.quantity); });
   for (std::size_t row = begin; row < end; row += snapshot_rows) {
     source.take(static_cast<Index>(row), static_cast<Index>(std::min(row + snapshot_rows, end)), work->part);
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      evaluate(*columns[c].quantity, work->part, work->values);
-      convert(work->values, arrays[c]->type, work->bytes[c].data() + (row - begin) * arrays[c]->row_bytes());
-    }
+    if (stressed) keep_cauchy_stresses(work->part);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      write_planes(evaluate(*columns[c].quantity, work->part, work->values), arrays[c]->type,
+                   work->planes[c].data() + (row - begin) * arrays[c]->columns, arrays[c]->plane_bytes());
   }
   for (std::size_t c = 0; c < columns.size(); ++c)
-    compress(work->deflater, *arrays[c], work->bytes[c], arrays[c]->chunks[block]);
+    compress(work->deflater, *arrays[c], work->planes[c], arrays[c]->chunks[block]);
 }
 
 VtkhdfFrame::Array VtkhdfFrames::sequence(const std::string& name, std::size_t size) {
@@ -143,19 +125,19 @@ VtkhdfFrame::Array VtkhdfFrames::sequence(const std::string& name, std::size_t s
     work->values.clear();
     for (std::size_t i = b * block_rows; i < std::min((b + 1) * block_rows, size); ++i)
       work->values.push_back(static_cast<double>(i));
-    std::vector<std::byte> bytes(array.chunk_bytes());
-    convert(work->values, array.type, bytes.data());
-    compress(work->deflater, array, bytes, array.chunks[b]);
+    std::vector<unsigned char> planes(array.chunk_bytes());
+    write_planes(std::as_bytes(std::span(work->values)), array.type, planes.data(), array.plane_bytes());
+    compress(work->deflater, array, planes, array.chunks[b]);
   });
   return named(name, std::move(array));
 }
 
 VtkhdfFrame::Array VtkhdfFrames::vertex_types(std::size_t size) {
-  constexpr std::byte vtk_vertex{1};
+  constexpr unsigned char vtk_vertex = 1;
   ChunkedArray array = shaped(ElementType::uint8, size, 1);
   const parallel::Workspaces<Workspace>::Lease work(*workspaces_);
-  const std::vector<std::byte> bytes(array.chunk_bytes(), vtk_vertex);
-  for (Chunk& chunk : array.chunks) compress(work->deflater, array, bytes, chunk);
+  const std::vector<unsigned char> types(array.chunk_bytes(), vtk_vertex);
+  for (Chunk& chunk : array.chunks) compress(work->deflater, array, types, chunk);
   return named("/VTKHDF/Types", std::move(array));
 }
 

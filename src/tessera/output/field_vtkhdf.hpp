@@ -45,7 +45,7 @@ class VtkhdfFrames {
     PlaneDeflater deflater;
     Snapshot part;
     std::vector<double> values;
-    std::vector<std::vector<std::byte>> bytes;  // of a chunk, for each column
+    std::vector<RawField<unsigned char>> planes;  // of a chunk, for each column
   };
 
   ElementType type_of(const Quantity& quantity) const;

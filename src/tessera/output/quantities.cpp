@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
 
 #include "tessera/base/text.hpp"
 
@@ -20,43 +23,38 @@ double pressure(const Snapshot& s, std::size_t a) { return -trace(cauchy_stress(
 
 double volume_ratio(const Snapshot& s, std::size_t a) { return determinant(s.deformation_gradient[a]); }
 
-template <auto Member>
-auto stored(const Snapshot& s, std::size_t a) {
-  return (s.*Member)[a];
-}
+Index body(const Snapshot& s, std::size_t a) { return s.body[a]; }
+
+Index material(const Snapshot& s, std::size_t a) { return s.material[a]; }
 
 using S = Snapshot;
 using enum Exactness;
 using enum Variation;
 
 const std::array<Quantity, 21> table = {{
-    {"reference_position", "m", "Position in the undeformed state.", Quantity::Vector(stored<&S::reference_position>),
-     full, constant},
-    {"position", "m", "Current position.", Quantity::Vector(stored<&S::position>), full},
+    {"reference_position", "m", "Position in the undeformed state.", &S::reference_position, full, constant},
+    {"position", "m", "Current position.", &S::position, full},
     {"displacement", "m", "Current minus reference position.", Quantity::Vector(displacement)},
-    {"velocity", "m/s", "Velocity, at the time of the positions.", Quantity::Vector(stored<&S::velocity>)},
-    {"force", "N", "Total force: internal, contact, external and reactions.", Quantity::Vector(stored<&S::force>)},
-    {"internal_force", "N", "Force from the stress in the cells.", Quantity::Vector(stored<&S::internal_force>)},
-    {"contact_force", "N", "Force from the bonds.", Quantity::Vector(stored<&S::contact_force>)},
-    {"external_force", "N", "Force from tractions, gravity and damping.", Quantity::Vector(stored<&S::external_force>)},
-    {"deformation_gradient", "-", "Mean deformation gradient F of the cell.",
-     Quantity::Tensor(stored<&S::deformation_gradient>), full},
+    {"velocity", "m/s", "Velocity, at the time of the positions.", &S::velocity},
+    {"force", "N", "Total force: internal, contact, external and reactions.", &S::force},
+    {"internal_force", "N", "Force from the stress in the cells.", &S::internal_force},
+    {"contact_force", "N", "Force from the bonds.", &S::contact_force},
+    {"external_force", "N", "Force from tractions, gravity and damping.", &S::external_force},
+    {"deformation_gradient", "-", "Mean deformation gradient F of the cell.", &S::deformation_gradient, full},
     {"first_piola_kirchhoff", "Pa", "First Piola-Kirchhoff stress P, viscous part included.",
-     Quantity::Tensor(stored<&S::first_piola_kirchhoff>)},
+     &S::first_piola_kirchhoff},
     {"cauchy_stress", "Pa", "Cauchy stress P F^T / J, viscous part included; \"stress\" is a second name.",
      Quantity::Tensor(cauchy_stress)},
     {"von_mises", "Pa", "Von Mises stress of the Cauchy stress.", Quantity::Scalar(von_mises_of)},
     {"pressure", "Pa", "Minus a third of the trace of the Cauchy stress.", Quantity::Scalar(pressure)},
-    {"volume", "m3", "Volume of the cell in the undeformed state.", Quantity::Scalar(stored<&S::volume>), full,
-     constant},
+    {"volume", "m3", "Volume of the cell in the undeformed state.", &S::volume, full, constant},
     {"J", "-", "Ratio of current to reference volume, det F.", Quantity::Scalar(volume_ratio), full},
-    {"mass", "kg", "Mass of the particle.", Quantity::Scalar(stored<&S::mass>), full, constant},
-    {"energy_density", "J/m3", "Strain energy per reference volume.", Quantity::Scalar(stored<&S::energy_density>)},
-    {"plastic_strain", "-", "Equivalent plastic strain.", Quantity::Scalar(stored<&S::plastic_strain>)},
-    {"body", "-", "Number of the body, in the order of the case file.", Quantity::Integer(stored<&S::body>), full,
+    {"mass", "kg", "Mass of the particle.", &S::mass, full, constant},
+    {"energy_density", "J/m3", "Strain energy per reference volume.", &S::energy_density},
+    {"plastic_strain", "-", "Equivalent plastic strain.", &S::plastic_strain},
+    {"body", "-", "Number of the body, in the order of the case file.", Quantity::Integer(body), full, constant},
+    {"material", "-", "Number of the material, in the order of the case file.", Quantity::Integer(material), full,
      constant},
-    {"material", "-", "Number of the material, in the order of the case file.", Quantity::Integer(stored<&S::material>),
-     full, constant},
     {"particle_id", "-", "Number of the particle, in the order in which it was given or generated.",
      Quantity::Integer([](const Snapshot& s, std::size_t a) { return s.first + static_cast<Index>(a); }), full,
      constant},
@@ -79,11 +77,15 @@ void store(const Vec3& value, double* out) {
   for (int i = 0; i < 3; ++i) out[i] = value[i];
 }
 void store(const Mat3& value, double* out) { std::copy(value.m.begin(), value.m.end(), out); }
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Mat3) == 9 * sizeof(double), "as store() leaves them");
+
+template <class Value>
+constexpr bool is_held = std::is_member_object_pointer_v<Value>;
 
 }  // namespace
 
 int Quantity::components() const {
-  constexpr std::array<int, 4> components_of_kind = {1, 1, 3, 9};
+  constexpr std::array<int, 7> components_of_kind = {1, 1, 3, 9, 1, 3, 9};
   return components_of_kind[value.index()];
 }
 
@@ -121,29 +123,53 @@ std::span<const std::string_view> component_suffixes(const Quantity& quantity) {
 }
 
 void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::size_t particle, double* out) {
-  std::visit([&](auto value) { store(value(snapshot, particle), out); }, quantity.value);
-}
-
-void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::vector<double>& out) {
-  const auto components = static_cast<std::size_t>(quantity.components());
-  out.resize(snapshot.position.size() * components);
   std::visit(
       [&](auto value) {
-        for (std::size_t a = 0; a < snapshot.position.size(); ++a)
-          store(value(snapshot, a), out.data() + components * a);
+        if constexpr (is_held<decltype(value)>)
+          store((snapshot.*value)[particle], out);
+        else
+          store(value(snapshot, particle), out);
+      },
+      quantity.value);
+}
+
+std::span<const std::byte> evaluate(const Quantity& quantity, const Snapshot& snapshot, std::vector<double>& computed) {
+  return std::visit(
+      [&](auto value) {
+        if constexpr (is_held<decltype(value)>) {
+          return std::as_bytes(std::span(snapshot.*value));
+        } else {
+          const auto components = static_cast<std::size_t>(quantity.components());
+          computed.resize(snapshot.position.size() * components);
+          for (std::size_t a = 0; a < snapshot.position.size(); ++a)
+            store(value(snapshot, a), computed.data() + components * a);
+          return std::as_bytes(std::span(std::as_const(computed)));
+        }
       },
       quantity.value);
 }
 
 std::vector<double> evaluate(const Quantity& quantity, const Snapshot& snapshot) {
   std::vector<double> values;
-  evaluate(quantity, snapshot, values);
+  const std::span<const std::byte> bytes = evaluate(quantity, snapshot, values);
+  if (values.empty()) {
+    values.resize(bytes.size() / sizeof(double));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+  }
   return values;
 }
 
 Mat3 cauchy_stress(const Snapshot& snapshot, std::size_t particle) {
+  if (!snapshot.cauchy_stress.empty()) return snapshot.cauchy_stress[particle];
   const Mat3& F = snapshot.deformation_gradient[particle];
   return (1.0 / determinant(F)) * (snapshot.first_piola_kirchhoff[particle] * transpose(F));
+}
+
+void keep_cauchy_stresses(Snapshot& snapshot) {
+  std::vector<Mat3> stresses = std::exchange(snapshot.cauchy_stress, {});  // those of another time
+  stresses.resize(snapshot.position.size());
+  for (std::size_t a = 0; a < stresses.size(); ++a) stresses[a] = cauchy_stress(snapshot, a);
+  snapshot.cauchy_stress = std::move(stresses);
 }
 
 double von_mises(const Mat3& stress) {

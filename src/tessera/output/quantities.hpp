@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,11 +25,15 @@ struct Quantity {
   using Integer = Index (*)(const Snapshot&, std::size_t particle);
   using Vector = Vec3 (*)(const Snapshot&, std::size_t particle);
   using Tensor = Mat3 (*)(const Snapshot&, std::size_t particle);
+  // What snapshots hold as it is:
+  using Scalars = std::vector<double> Snapshot::*;
+  using Vectors = std::vector<Vec3> Snapshot::*;
+  using Tensors = std::vector<Mat3> Snapshot::*;
 
   std::string_view name;
   std::string_view unit;     // "-" for pure numbers
   std::string_view meaning;  // one sentence
-  std::variant<Scalar, Integer, Vector, Tensor> value;
+  std::variant<Scalar, Integer, Vector, Tensor, Scalars, Vectors, Tensors> value;
   Exactness exactness = Exactness::single;
   Variation variation = Variation::changing;
 
@@ -56,11 +61,13 @@ void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::size_t pa
 
 /// The components of all particles, particle by particle.
 std::vector<double> evaluate(const Quantity& quantity, const Snapshot& snapshot);
-/// The same into `out`, whose memory is used again.
-void evaluate(const Quantity& quantity, const Snapshot& snapshot, std::vector<double>& out);
+/// The same as the bytes of these numbers: those in the snapshot, if it holds them, or else those of `computed`.
+std::span<const std::byte> evaluate(const Quantity& quantity, const Snapshot& snapshot, std::vector<double>& computed);
 
 /// The Cauchy stress P F^T / J of a particle [Pa].
 Mat3 cauchy_stress(const Snapshot& snapshot, std::size_t particle);
+/// Computes it for all particles, for quantities that come from it.
+void keep_cauchy_stresses(Snapshot& snapshot);
 
 /// The von Mises stress sqrt(3/2 s : s), s the deviator of `stress` [Pa].
 double von_mises(const Mat3& stress);

@@ -35,7 +35,8 @@ SnapshotSource parts_of(const Snapshot& all) {
                              .volume = cut(all.volume),
                              .mass = cut(all.mass),
                              .energy_density = cut(all.energy_density),
-                             .plastic_strain = cut(all.plastic_strain)};
+                             .plastic_strain = cut(all.plastic_strain),
+                             .cauchy_stress = {}};
           }};
 }
 

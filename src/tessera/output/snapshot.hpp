@@ -34,6 +34,7 @@ struct Snapshot {
   std::vector<double> mass;                 // [kg]
   std::vector<double> energy_density;       // U(F_a) [J/m3]
   std::vector<double> plastic_strain;       // equivalent; zero where nothing flows
+  std::vector<Mat3> cauchy_stress;          // kept by who needs it several times, or else empty [Pa]
 };
 
 /// A state of which snapshots can be taken piece by piece, so that the whole need not be held at once.

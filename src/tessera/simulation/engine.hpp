@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -71,6 +72,7 @@ class Engine {
   [[noreturn]] void fail(Index particle, const std::string& reason) const;
   void check_same_model(const Checkpoint& c) const;
   struct Observation;
+  mutable std::shared_ptr<Observation> seen_;  // the last one: its memory serves the next
   void take_snapshot(const Observation& seen, Index begin, Index end, Snapshot& shot) const;
 
   Model& model_;

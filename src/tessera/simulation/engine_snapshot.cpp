@@ -9,7 +9,7 @@ namespace tessera {
 
 namespace {
 
-constexpr Index lookahead = 12;  // particles
+constexpr Index lookahead = 48;  // particles
 
 /// Makes room for n particles.
 void resize(Snapshot& shot, std::size_t n) {
@@ -54,14 +54,20 @@ struct Engine::Observation {
 SnapshotSource Engine::snapshots() const {
   const System& s = model_.system;
   const auto n = static_cast<std::size_t>(s.particles());
-  auto seen = std::make_shared<Observation>(Observation{forces_.internal(state_), {}, {}, std::vector<Index>(n)});
-  parallel::for_each(s.particles(), [&](std::int64_t a) {
-    seen->particle[static_cast<std::size_t>(model_.user_number[static_cast<std::size_t>(a)])] = static_cast<Index>(a);
-  });
-  if (!model_.loads.tractions.forces().empty()) seen->traction.resize(n);
+  if (!seen_ || seen_.use_count() > 1) seen_ = std::make_shared<Observation>();
+  const std::shared_ptr<Observation> seen = seen_;
+  static_cast<void>(forces_.total());  // completed by all threads, before one of them asks for a part
+  forces_.find_internal(state_, seen->internal);
+  if (seen->particle.empty()) {
+    seen->particle.resize(n);
+    parallel::for_each(s.particles(), [&](std::int64_t a) {
+      seen->particle[static_cast<std::size_t>(model_.user_number[static_cast<std::size_t>(a)])] = static_cast<Index>(a);
+    });
+  }
+  if (!model_.loads.tractions.forces().empty()) seen->traction.assign(n, Vec3{});
   for (const NodalForce& l : model_.loads.tractions.forces())
     seen->traction[static_cast<std::size_t>(l.particle)] += l.force;
-  if (!s.d.constraints.empty()) seen->reaction.resize(n);
+  if (!s.d.constraints.empty()) seen->reaction.assign(n, Vec3{});
   for (std::size_t i = 0; i < s.d.constraints.size(); ++i)
     seen->reaction[static_cast<std::size_t>(s.d.constraints[i].particle)] += leapfrog_.reactions()[i];
   return {time_, s.particles(),

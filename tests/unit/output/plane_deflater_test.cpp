@@ -7,21 +7,20 @@
 #include <functional>
 #include <random>
 
+#include "tessera/output/byte_planes.hpp"
+
 namespace tessera {
 namespace {
 
-using Bytes = std::vector<std::byte>;
+using Bytes = std::vector<unsigned char>;
 
-/// What zlib and an inverse shuffle make of a stream; empty when zlib refuses it.
-Bytes restored(const Chunk& stream, std::size_t size, std::size_t width) {
-  Bytes planes(size + 1), values(size);
-  uLongf length = planes.size();
-  const int status = uncompress(reinterpret_cast<Bytef*>(planes.data()), &length, stream.data(), stream.size());
-  if (status != Z_OK || length != size) return {};
-  const std::size_t count = size / width;
-  for (std::size_t k = 0; k < width; ++k)
-    for (std::size_t i = 0; i < count; ++i) values[i * width + k] = planes[k * count + i];
-  return values;
+/// What zlib makes of a stream; empty when zlib refuses it.
+Bytes restored(const Chunk& stream, std::size_t size) {
+  Bytes bytes(size + 1);
+  uLongf length = bytes.size();
+  if (uncompress(bytes.data(), &length, stream.data(), stream.size()) != Z_OK || length != size) return {};
+  bytes.resize(size);
+  return bytes;
 }
 
 /// Bytes from near certainty to noise, among them the Fibonacci-like counts that make the longest codes.
@@ -30,7 +29,7 @@ Bytes sample(std::mt19937_64& random, std::size_t size) {
   const auto choice = random() % 5;
   std::uniform_real_distribution<> uniform;
   Bytes bytes(size);
-  for (std::byte& b : bytes) {
+  for (unsigned char& b : bytes) {
     unsigned k = 0;
     switch (choice) {
       case 0:
@@ -48,7 +47,7 @@ Bytes sample(std::mt19937_64& random, std::size_t size) {
       default:
         k = 63;
     }
-    b = static_cast<std::byte>(k);
+    b = static_cast<unsigned char>(k);
   }
   return bytes;
 }
@@ -61,22 +60,20 @@ TEST(PlaneDeflater, ZlibReadsWhatItWrites) {
     const std::size_t width = std::size_t{1} << (i % 3 == 0 ? 0 : i % 3 + 1);
     const std::size_t count = 1 + random() % (i % 20 == 0 ? 70000 : 3000);
     const Bytes bytes = sample(random, count * width);
-    deflater.numbers(bytes, width, stream);
-    ASSERT_EQ(restored(stream, bytes.size(), width), bytes) << "sample " << i;
-    deflater.integers(bytes, width, stream);
-    ASSERT_EQ(restored(stream, bytes.size(), width), bytes) << "sample " << i;
+    PlaneDeflater::numbers(bytes, width, stream);
+    ASSERT_EQ(restored(stream, bytes.size()), bytes) << "sample " << i;
+    deflater.integers(bytes, stream);
+    ASSERT_EQ(restored(stream, bytes.size()), bytes) << "sample " << i;
   }
 }
 
 std::size_t size_of(const std::function<double(std::size_t)>& value) {
-  PlaneDeflater deflater;
-  Bytes bytes(8192 * sizeof(double));
-  for (std::size_t i = 0; i < 8192; ++i) {
-    const double v = value(i);
-    std::memcpy(bytes.data() + i * sizeof v, &v, sizeof v);
-  }
+  std::vector<double> values(8192);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(i);
+  Bytes planes(values.size() * sizeof(double));
+  write_planes(std::as_bytes(std::span(values)), ElementType::float64, planes.data(), values.size());
   Chunk stream;
-  deflater.numbers(bytes, sizeof(double), stream);
+  PlaneDeflater::numbers(planes, sizeof(double), stream);
   return stream.size();
 }
 
