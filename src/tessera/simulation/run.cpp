@@ -70,7 +70,7 @@ class Run {
   void keep_going();
   void write_last_state();
   void save_checkpoint();
-  void leave_last_good_state();
+  void leave_traces(const std::string& message);
   MassScalingSummary mass_scaling_summary() const;
   std::vector<std::string> warnings() const;
   void summarise(const std::string& status, const std::string& message);
@@ -134,8 +134,7 @@ void Run::execute() {
     throw;
   } catch (const RunError& e) {
     progress_->interrupt();
-    leave_last_good_state();
-    summarise("failed", e.what());
+    leave_traces(e.what());
     throw;
   }
   summarise("done", "");
@@ -195,11 +194,20 @@ void Run::observe() {
   recorder_->write_if_due(*engine_);
 }
 
-void Run::leave_last_good_state() {
+/// The last good state and a summary. A full disk may take neither; what failed first is what the user is told last.
+void Run::leave_traces(const std::string& message) {
+  const auto attempt = [&](const auto& leave) {
+    try {
+      leave();
+    } catch (const RunError& e) {
+      if (e.what() != message) fmt::print(stderr, "tessera: warning: {}\n", e.what());
+    }
+  };
   recorder_->settle();
   engine_->restore(backup_);
-  write_checkpoint(checkpoint_path(options_.directory), backup_);
+  attempt([&] { write_checkpoint(checkpoint_path(options_.directory), backup_); });
   engine_->prepare();
+  attempt([&] { summarise("failed", message); });
 }
 
 MassScalingSummary Run::mass_scaling_summary() const {
