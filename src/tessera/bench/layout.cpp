@@ -34,8 +34,7 @@ struct CurvaturePerParticle {
 
 /// What second-order integration streams beside the rest: each array once a sweep.
 double second_order_bytes(const PerParticle& n, const CurvaturePerParticle& c) {
-  const double nodes = 1.0 + n.rim,
-               rows = c.neighbours * sizeof(CurvatureRows::Neighbour) + local + sizeof(CurvatureRows::Row);
+  const double nodes = 1.0 + n.rim, rows = c.neighbours * sizeof(CurvatureRows::Neighbour) + sizeof(CurvatureRows::Row);
   const double hessians = nodes * (tensor + vec3) + n.rim * index + rows + map + hessian;
   const double strain =
       nodes * (hessian + vec3) + n.rim * index + rows + c.faces * face + 2.0 * tensor + 2.0 * number + hessian;

@@ -12,6 +12,7 @@
 // Stresses at the points of the cells of a tile, four cells at once, or eight where registers have 512 bits. How F
 // varies in the cells is told by a Source, whose Variation<Lanes> has
 //
+//     group(system, tile, quad)                the cells that are taken at once from this quad on,
 //     find(group, E)                           the E_q of a group of cells,
 //     take(group, volume, moment, stress)      what becomes of the derivatives by E_q; adds to the cells' own stress.
 
@@ -26,6 +27,13 @@ struct CellGroup {
       : local{}, first(first_quad), count(std::min(lanes, tile.size() - quad * first_quad)) {
     const std::uint16_t* order = s.tiles.order.data() + quad * (tile.quad + first_quad);
     for (Index lane = 0; lane < lanes; ++lane) local[lane] = order[std::min(lane, count - 1)];
+  }
+
+  /// Consecutive cells in place of those of quads.
+  CellGroup(const Tile& tile, Index first_quad)
+      : local{}, first(first_quad), count(std::min(lanes, tile.size() - quad * first_quad)) {
+    for (Index lane = 0; lane < lanes; ++lane)
+      local[lane] = static_cast<std::uint16_t>(quad * first_quad + std::min(lane, count - 1));
   }
 
   /// One number of each cell.
@@ -120,7 +128,7 @@ inline StressSums cells_of(const CellTask& task, const Law& law, const Source& s
   Lanes smallest_J{}, not_finite{};
   smallest_J += std::numeric_limits<double>::infinity();
   for (Index q = 0; q < tile.quads(); q += CellGroup<Lanes>::quads) {
-    const CellGroup<Lanes> group(task.s, tile, q);
+    const CellGroup<Lanes> group = Source::template Variation<Lanes>::group(task.s, tile, q);
     Lanes9Of<Lanes> E[3];
     variation.find(group, E);
     const Lanes9Of<Lanes> F = load_F(task.F + tile.begin, group);

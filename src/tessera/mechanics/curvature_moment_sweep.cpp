@@ -84,8 +84,7 @@ TESSERA_KERNEL void curvature_moment_sweep(const System& s, Index k, const Tenso
   const double* volume = s.d.volume.data() + rows.tile.begin;
   const Vec3* offset = s.second_order->rows.offset.data() + rows.tile.begin;
   for (Index row = 0; row < rows.tile.size(); ++row, rows.next(), ++offset) {
-    const Index local = *rows.order;
-    const Node a = nodes[local];
+    const Node a = nodes[row];
     Double4 g[derivatives];
     unrolled<derivatives>([&](auto r) { g[r] = a.g[r]; });
     rows.for_each_neighbour(
@@ -102,16 +101,16 @@ TESSERA_KERNEL void curvature_moment_sweep(const System& s, Index k, const Tenso
     unrolled<derivatives>([&](auto r) {
       unrolled<3>([&](auto j) { unrolled<3>([&](auto l) { Z[l][j] += rows.map[9 * r + 3 * j + l] * g[r]; }); });
     });
-    const Double4 C_a = centroid[local];
-    const double inverse_volume = 1.0 / volume[local];
-    SentMoments& sent = scratch.moments[static_cast<std::size_t>(local)];
+    const Double4 C_a = centroid[row];
+    const double inverse_volume = 1.0 / volume[row];
+    SentMoments& sent = scratch.moments[static_cast<std::size_t>(row)];
     Double4 first[3];
     unrolled<3>([&](auto j) {
       const Double4 own = C_a[0] * Z[0][j] + C_a[1] * Z[1][j] + C_a[2] * Z[2][j];
       unrolled<3>([&](auto l) { sent.v[3 * l + j] = with_fourth(Z[l][j], own[Index{l}]); });
       first[j] = a.T[j] - inverse_volume * (offset->x * Z[0][j] + offset->y * Z[1][j] + offset->z * Z[2][j]);
     });
-    scratch.T[static_cast<std::size_t>(local)] = {first[0], first[1], first[2]};
+    scratch.T[static_cast<std::size_t>(row)] = {first[0], first[1], first[2]};
   }
   return_gradient_moments(s, k, scratch, rim);
   for (Index a = 0; a < rows.tile.size(); ++a)

@@ -61,13 +61,6 @@ inline void store_vectors(const Double4 (&v)[n], double* to) {
   __builtin_memcpy(to + 3 * (n - 1), &v[n - 1], 3 * sizeof(double));
 }
 
-template <class T>
-inline void fetch_all(const T* value) {
-  const char* first = reinterpret_cast<const char*>(value);
-  for (std::size_t at = 0; at < sizeof(T); at += 64) __builtin_prefetch(first + at);
-  __builtin_prefetch(first + sizeof(T) - 1);
-}
-
 /// Calls fill(local, particle) for the tile and its rim, and ahead(particle) for what is filled later.
 template <class Fill, class Ahead>
 inline void for_each_node(const System& s, Index k, Fill&& fill, Ahead&& ahead) {
@@ -85,12 +78,11 @@ inline void for_each_node(const System& s, Index k, Fill&& fill, Ahead&& ahead) 
 struct RowReader {
   RowReader(const System& s, Index k)
       : tile(tile_of(s, k)),
-        order(s.tiles.order.data() + quad * tile.quad),
         row(s.second_order->rows.rows.data() + tile.begin),
         neighbour(s.second_order->rows.neighbours.data() + start(s, k).neighbour),
         M(s.second_order->rows.M.data() + start(s, k).face),
         next_M(M),
-        map(s.second_order->rows.map[0].data() + 54 * static_cast<Offset>(tile.begin)) {}
+        map(s.second_order->rows.map[0].data() + map_size * static_cast<Offset>(tile.begin)) {}
 
   static const CurvatureRows::Start& start(const System& s, Index k) {
     return s.second_order->rows.start[static_cast<std::size_t>(k)];
@@ -114,17 +106,18 @@ struct RowReader {
     for (std::size_t line = 0; line < sizeof(T) + 63; line += 64)
       __builtin_prefetch(reinterpret_cast<const char*>(rows + row + rows_ahead) + line, 1);
   }
-  static constexpr Index rows_ahead = 70;  // rows come in any order within a window of 64
+  static constexpr Index rows_ahead = 12;
 
-  void next() { ++order, ++row, map += 54; }
+  void next() { ++row, map += map_size; }
 
   const Tile& tile;
-  const std::uint16_t* order;
   const CurvatureRows::Row* row;
   const CurvatureRows::Neighbour* neighbour;
   const CurvatureRows::FaceFactors* M;
   const CurvatureRows::FaceFactors* next_M;
   const double* map;
+
+  static constexpr Offset map_size = std::tuple_size_v<SecondDerivatives::Map>;
 };
 
 }  // namespace tessera

@@ -60,20 +60,28 @@ class TileRows {
         place_(static_cast<std::size_t>(tile_.size())) {}
 
   void fill() {
-    const std::uint16_t* order = t_.order.data() + quad * tile_.quad;
-    const std::uint16_t* length = t_.length.data() + tile_.quad;
-    Offset slot = tile_.slot;
-    for (Index row = 0; row < tile_.size(); ++row) {
-      fill_row(row, tile_.begin + order[row], slot + row % quad);
-      if (row % quad == quad - 1) slot += quad * length[row / quad];
-    }
+    const std::vector<Offset> slot = first_slots();
+    for (Index row = 0; row < tile_.size(); ++row) fill_row(tile_.begin + row, slot[static_cast<std::size_t>(row)]);
     fill_senders();
   }
 
  private:
+  /// Of the first bonds of the own particles, by local number.
+  std::vector<Offset> first_slots() const {
+    const std::uint16_t* order = t_.order.data() + quad * tile_.quad;
+    const std::uint16_t* length = t_.length.data() + tile_.quad;
+    std::vector<Offset> slots(place_.size());
+    Offset slot = tile_.slot;
+    for (Index row = 0; row < tile_.size(); ++row) {
+      slots[order[row]] = slot + row % quad;
+      if (row % quad == quad - 1) slot += quad * length[row / quad];
+    }
+    return slots;
+  }
+
   /// `slot`: of the first bond.
-  void fill_row(Index row, Index a, Offset slot) {
-    const auto k = static_cast<std::size_t>(tile_.begin + row);
+  void fill_row(Index a, Offset slot) {
+    const auto k = static_cast<std::size_t>(a);
     place_[static_cast<std::size_t>(a - tile_.begin)] = {next_, next_};
     Vec3 offset;
     Index named = 0;

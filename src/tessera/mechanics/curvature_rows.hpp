@@ -9,9 +9,9 @@
 
 namespace tessera {
 
-/// What the sweeps of second derivatives read of the body. A tile's own particles have one row each, in the order of
-/// its quads: the neighbours with a common face. Each face of a tile has one number, and those that a row is the first
-/// to name follow each other.
+/// What the sweeps of second derivatives read of the body. A tile's own particles have one row each, in their order, so
+/// that neighbours stay near: the neighbours with a common face. Each face of a tile has one number, and those that a
+/// row is the first to name follow each other.
 struct CurvatureRows {
   /// Where a tile's data begin.
   struct Start {
@@ -29,11 +29,11 @@ struct CurvatureRows {
   using FaceFactors = std::array<double, 6>;  // xx, xy, xz, yy, yz, zz
 
   std::vector<Start> start;  // of each tile, and an end mark
-  RawField<Row> rows;        // from Tile::begin on
+  RawField<Row> rows;        // one a particle
   RawField<Neighbour> neighbours;
   RawField<FaceFactors> M;               // (A/L) M_f / (q_a + q_b), mixed components twice [m3]
-  RawField<SecondDerivatives::Map> map;  // q_a S_a, in the order of the rows [1/m2]
-  RawField<Vec3> offset;                 // sum_b C_ab over the neighbours, in the order of the rows [m]
+  RawField<SecondDerivatives::Map> map;  // q_a S_a [1/m2]
+  RawField<Vec3> offset;                 // sum_b C_ab over the neighbours [m]
 
   // The same neighbours by who receives: of each local number the own particles that have it in their rows.
   RawField<std::uint16_t> sender_count;  // from Tile::node on

@@ -22,8 +22,7 @@ TESSERA_KERNEL void curvature_strain_sweep(const System& s, Index k, const Hessi
   const double* inverse_sum = s.second_order->rows.inverse_sum.data() + rows.tile.begin;
   const Double4 other_way{1.0, 1.0, 1.0, -1.0};
   for (Index row = 0; row < rows.tile.size(); ++row, rows.next()) {
-    const Index local = *rows.order;
-    Node a = nodes[local];
+    Node a = nodes[row];
     unrolled<3>([&](auto j) { a.h[j] *= other_way; });
     Double4 sum[derivatives]{}, VF[3]{};
     rows.for_each_neighbour(
@@ -43,11 +42,11 @@ TESSERA_KERNEL void curvature_strain_sweep(const System& s, Index k, const Hessi
     RowReader::fetch_result(F + rows.tile.begin, row);
 
     const double others = 1.0 - rows.row->neighbours;
-    unrolled<derivatives>([&](auto r) { sum[r] = inverse_sum[local] * (sum[r] + others * a.h[r]); });
-    store_vectors(sum, mean[rows.tile.begin + local].h);
-    Tensor& F_a = F[rows.tile.begin + local];
+    unrolled<derivatives>([&](auto r) { sum[r] = inverse_sum[row] * (sum[r] + others * a.h[r]); });
+    store_vectors(sum, mean[rows.tile.begin + row].h);
+    Tensor& F_a = F[rows.tile.begin + row];
     const Columns change{VF[0], VF[1], VF[2]};
-    store(F_a, to_kernel(F_a) + (1.0 / volume[local]) * change);
+    store(F_a, to_kernel(F_a) + (1.0 / volume[row]) * change);
   }
 }
 

@@ -26,6 +26,8 @@ struct CurvedStrains {
    public:
     explicit Variation(const CurvedStrains& source) : s_(source) {}
 
+    static CellGroup<Lanes> group(const System& /*s*/, const Tile& tile, Index first) { return {tile, first}; }
+
     inline void find(const CellGroup<Lanes>& group, Lanes9Of<Lanes> (&E)[3]) {
       fetch_later(group);
       const double *point[lanes_in<Lanes>], *row[lanes_in<Lanes>];
@@ -92,9 +94,10 @@ struct CurvedStrains {
     }
 
    private:
-    /// Cells of a group come in any order within a window of 64.
     void fetch_later(const CellGroup<Lanes>& group) const {
-      const Index later = quad * group.first + 72;
+      const Index later = quad * group.first + 24;
+      for (std::size_t at = 0; at < group.lanes * sizeof(Symmetric3); at += 64)
+        __builtin_prefetch(reinterpret_cast<const char*>(s_.points + later) + at);
       for (std::size_t at = 0; at < group.lanes * sizeof(Hessian); at += 64) {
         __builtin_prefetch(reinterpret_cast<const char*>(s_.H + later) + at);
         __builtin_prefetch(reinterpret_cast<const char*>(s_.G + later) + at, 1);

@@ -14,7 +14,7 @@ TESSERA_KERNEL void hessian_sweep(const System& s, Index k, const Tensor* F, Cur
       [&](Index b) { fetch(F + b), fetch(C + b); });
   RowReader rows(s, k);
   for (Index row = 0; row < rows.tile.size(); ++row, rows.next()) {
-    const Node a = nodes[*rows.order];
+    const Node a = nodes[row];
     Double4 G[3][3]{};  // for each component of C a tensor, column by column
     rows.for_each_neighbour(
         [&](const CurvatureRows::Neighbour& n) {
@@ -32,7 +32,7 @@ TESSERA_KERNEL void hessian_sweep(const System& s, Index k, const Tensor* F, Cur
     unrolled<derivatives>([&](auto r) {
       unrolled<3>([&](auto j) { unrolled<3>([&](auto l) { h[r] += rows.map[9 * r + 3 * j + l] * G[l][j]; }); });
     });
-    store_vectors(h, weighted[rows.tile.begin + *rows.order].h);
+    store_vectors(h, weighted[rows.tile.begin + row].h);
   }
 }
 

@@ -91,6 +91,8 @@ struct Neighbours {
   template <class Lanes>
   class Variation {
    public:
+    static CellGroup<Lanes> group(const System& s, const Tile& tile, Index first) { return {s, tile, first}; }
+
     explicit Variation(const Neighbours& source)
         : nodes_(source.scratch.nodes.data()),
           C_(source.scratch.centroid.data()),
