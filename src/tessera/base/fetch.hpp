@@ -16,14 +16,6 @@ inline void fetch(const T* value) {
   if constexpr (sizeof(T) > 64) __builtin_prefetch(first + sizeof(T) - 1);
 }
 
-/// All lines of a large value.
-template <class T>
-inline void fetch_all(const T* value) {
-  const char* first = reinterpret_cast<const char*>(value);
-  for (std::size_t at = 0; at < sizeof(T); at += 64) __builtin_prefetch(first + at);
-  __builtin_prefetch(first + sizeof(T) - 1);
-}
-
 /// Fetches what follows in an array that is streamed: the processor's own prefetcher stops at pages, and gives way to
 /// what waits for other data.
 template <Offset bytes, class T>

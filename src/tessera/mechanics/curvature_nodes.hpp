@@ -61,6 +61,13 @@ inline void store_vectors(const Double4 (&v)[n], double* to) {
   __builtin_memcpy(to + 3 * (n - 1), &v[n - 1], 3 * sizeof(double));
 }
 
+template <class T>
+inline void fetch_all(const T* value) {
+  const char* first = reinterpret_cast<const char*>(value);
+  for (std::size_t at = 0; at < sizeof(T); at += 64) __builtin_prefetch(first + at);
+  __builtin_prefetch(first + sizeof(T) - 1);
+}
+
 /// Calls fill(local, particle) for the tile and its rim, and ahead(particle) for what is filled later.
 template <class Fill, class Ahead>
 inline void for_each_node(const System& s, Index k, Fill&& fill, Ahead&& ahead) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "tessera/base/fetch.hpp"
 #include "tessera/mechanics/cell_sweeps.hpp"
 #include "tessera/mechanics/system.hpp"
 #include "tessera/parallel/parallel.hpp"
@@ -60,16 +59,12 @@ void add_extrapolated_strain(const System& s, double sign, const Double4* x, Ten
   });
 }
 
-/// Calls body(surface) for the surfaces of all cells at free boundaries, one for each cell, and ahead(cell) for cells
-/// that come later.
-template <class Body, class Ahead>
-void for_all_surfaces(const System& s, Body&& body, Ahead&& ahead) {
+/// Calls body(surface) for the surfaces of all cells at free boundaries, one for each cell.
+template <class Body>
+void for_all_surfaces(const System& s, Body&& body) {
   const std::vector<CurvedSurface>& surfaces = s.second_order->surfaces;
-  parallel::for_each(static_cast<std::int64_t>(surfaces.size()), [&](std::int64_t i) {
-    const auto k = static_cast<std::size_t>(i);
-    ahead(surfaces[std::min(k + 8, surfaces.size() - 1)].particle);
-    body(surfaces[k]);
-  });
+  parallel::for_each(static_cast<std::int64_t>(surfaces.size()),
+                     [&](std::int64_t k) { body(surfaces[static_cast<std::size_t>(k)]); });
 }
 
 template <class Body>
@@ -81,28 +76,24 @@ void for_all_tiles(const System& s, const SecondOrderMemory& memory, Body&& body
 }
 
 void add_surface_strain(const System& s, const Hessian* H, Tensor* F) {
-  const auto ahead = [&](Index a) { fetch_all(H + a), fetch_all(F + a); };
-  const auto add = [&](const CurvedSurface& c) {
+  for_all_surfaces(s, [&](const CurvedSurface& c) {
     Tensor& F_a = F[c.particle];
     const double inverse_volume = 1.0 / s.d.volume[static_cast<std::size_t>(c.particle)];
     for (std::size_t r = 0; r < 6; ++r)
       for (std::size_t j = 0; j < 3; ++j)
         for (std::size_t i = 0; i < 3; ++i)
           F_a.m[3 * j + i] += inverse_volume * H[c.particle].h[3 * r + i] * c.area_moment[r][static_cast<int>(j)];
-  };
-  for_all_surfaces(s, add, ahead);
+  });
 }
 
 void add_surface_moments(const System& s, const Tensor* T, Hessian* G) {
-  const auto ahead = [&](Index a) { fetch_all(T + a), fetch_all(G + a); };
-  const auto add = [&](const CurvedSurface& c) {
+  for_all_surfaces(s, [&](const CurvedSurface& c) {
     const double share = s.second_order->rows.inverse_sum[static_cast<std::size_t>(c.particle)];
     for (std::size_t r = 0; r < 6; ++r) {
       const Double4 force = share * apply(to_kernel(T[c.particle]), c.area_moment[r]);
       for (std::size_t i = 0; i < 3; ++i) G[c.particle].h[3 * r + i] += force[static_cast<int>(i)];
     }
-  };
-  for_all_surfaces(s, add, ahead);
+  });
 }
 
 }  // namespace
