@@ -1,8 +1,8 @@
 #pragma once
 
-// One binary serves several instruction sets: the loader picks the clone. Sanitizers start before it can. What needs
-// registers of 512 bits is a function of its own, for processors that have them.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+// One binary serves several instruction sets: the loader picks the clone (sanitizers start before it can, clang clones
+// no flat functions). What needs registers of 512 bits is a function of its own, for processors that have them.
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__OPTIMIZE_SIZE__) && defined(__OPTIMIZE__)
 #define TESSERA_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), flatten))
 #define TESSERA_WIDE_KERNEL __attribute__((target("arch=x86-64-v4"), flatten))

@@ -9,7 +9,6 @@ using Double4 = double __attribute__((vector_size(32)));
 /// The same in registers of 512 bits, for kernels that know they have them.
 using Double8 = double __attribute__((vector_size(64)));
 using Double2 = double __attribute__((vector_size(16)));
-using Mask4 = long long __attribute__((vector_size(32)));
 
 /// How many numbers lanes hold.
 template <class Lanes>
@@ -52,11 +51,10 @@ inline Double4 second_half(const Double8& l) { return __builtin_shufflevector(l,
 
 /// From four vectors (x, y, z, anything) to their components.
 inline Lanes3 transposed(const Double4& v0, const Double4& v1, const Double4& v2, const Double4& v3) {
-  const Double4 xz01 = __builtin_shuffle(v0, v1, Mask4{0, 4, 2, 6}),
-                xz23 = __builtin_shuffle(v2, v3, Mask4{0, 4, 2, 6});
-  const Double4 y01 = __builtin_shuffle(v0, v1, Mask4{1, 5, 3, 7}), y23 = __builtin_shuffle(v2, v3, Mask4{1, 5, 3, 7});
-  return {__builtin_shuffle(xz01, xz23, Mask4{0, 1, 4, 5}), __builtin_shuffle(y01, y23, Mask4{0, 1, 4, 5}),
-          __builtin_shuffle(xz01, xz23, Mask4{2, 3, 6, 7})};
+  const Double4 xz01 = __builtin_shufflevector(v0, v1, 0, 4, 2, 6), xz23 = __builtin_shufflevector(v2, v3, 0, 4, 2, 6);
+  const Double4 y01 = __builtin_shufflevector(v0, v1, 1, 5, 3, 7), y23 = __builtin_shufflevector(v2, v3, 1, 5, 3, 7);
+  return {__builtin_shufflevector(xz01, xz23, 0, 1, 4, 5), __builtin_shufflevector(y01, y23, 0, 1, 4, 5),
+          __builtin_shufflevector(xz01, xz23, 2, 3, 6, 7)};
 }
 
 /// From the components of four vectors to the vectors, each with a zero at the end.
@@ -65,12 +63,12 @@ struct FourVectors {
 };
 inline FourVectors transposed(const Lanes3& l) {
   const Double4 zero{};
-  const Double4 xy02 = __builtin_shuffle(l.x, l.y, Mask4{0, 4, 2, 6}),
-                xy13 = __builtin_shuffle(l.x, l.y, Mask4{1, 5, 3, 7});
-  const Double4 z02 = __builtin_shuffle(l.z, zero, Mask4{0, 4, 2, 6}),
-                z13 = __builtin_shuffle(l.z, zero, Mask4{1, 5, 3, 7});
-  return {{__builtin_shuffle(xy02, z02, Mask4{0, 1, 4, 5}), __builtin_shuffle(xy13, z13, Mask4{0, 1, 4, 5}),
-           __builtin_shuffle(xy02, z02, Mask4{2, 3, 6, 7}), __builtin_shuffle(xy13, z13, Mask4{2, 3, 6, 7})}};
+  const Double4 xy02 = __builtin_shufflevector(l.x, l.y, 0, 4, 2, 6),
+                xy13 = __builtin_shufflevector(l.x, l.y, 1, 5, 3, 7);
+  const Double4 z02 = __builtin_shufflevector(l.z, zero, 0, 4, 2, 6),
+                z13 = __builtin_shufflevector(l.z, zero, 1, 5, 3, 7);
+  return {{__builtin_shufflevector(xy02, z02, 0, 1, 4, 5), __builtin_shufflevector(xy13, z13, 0, 1, 4, 5),
+           __builtin_shufflevector(xy02, z02, 2, 3, 6, 7), __builtin_shufflevector(xy13, z13, 2, 3, 6, 7)}};
 }
 
 /// Two consecutive numbers of four rows, the first of each and the second of each.
@@ -85,7 +83,7 @@ inline TwoLanes load_pairs(const double* row0, const double* row1, const double*
   };
   const Double4 rows02 = __builtin_shufflevector(load(row0), load(row2), 0, 1, 2, 3),
                 rows13 = __builtin_shufflevector(load(row1), load(row3), 0, 1, 2, 3);
-  return {__builtin_shuffle(rows02, rows13, Mask4{0, 4, 2, 6}), __builtin_shuffle(rows02, rows13, Mask4{1, 5, 3, 7})};
+  return {__builtin_shufflevector(rows02, rows13, 0, 4, 2, 6), __builtin_shufflevector(rows02, rows13, 1, 5, 3, 7)};
 }
 
 /// Four consecutive numbers of several rows: the first of each, the second of each, and so on.
@@ -124,13 +122,13 @@ inline FourOfEight load_fours(const double* const (&row)[8], int k) {
 
 /// The other way.
 inline void store_fours(const FourOf<Double4>& l, double* const (&row)[4], int k) {
-  const Double4 a02 = __builtin_shuffle(l.n0, l.n1, Mask4{0, 4, 2, 6}),
-                a13 = __builtin_shuffle(l.n0, l.n1, Mask4{1, 5, 3, 7});
-  const Double4 b02 = __builtin_shuffle(l.n2, l.n3, Mask4{0, 4, 2, 6}),
-                b13 = __builtin_shuffle(l.n2, l.n3, Mask4{1, 5, 3, 7});
-  const Double4 rows[4] = {
-      __builtin_shuffle(a02, b02, Mask4{0, 1, 4, 5}), __builtin_shuffle(a13, b13, Mask4{0, 1, 4, 5}),
-      __builtin_shuffle(a02, b02, Mask4{2, 3, 6, 7}), __builtin_shuffle(a13, b13, Mask4{2, 3, 6, 7})};
+  const Double4 a02 = __builtin_shufflevector(l.n0, l.n1, 0, 4, 2, 6),
+                a13 = __builtin_shufflevector(l.n0, l.n1, 1, 5, 3, 7);
+  const Double4 b02 = __builtin_shufflevector(l.n2, l.n3, 0, 4, 2, 6),
+                b13 = __builtin_shufflevector(l.n2, l.n3, 1, 5, 3, 7);
+  const Double4 rows[4] = {__builtin_shufflevector(a02, b02, 0, 1, 4, 5), __builtin_shufflevector(a13, b13, 0, 1, 4, 5),
+                           __builtin_shufflevector(a02, b02, 2, 3, 6, 7),
+                           __builtin_shufflevector(a13, b13, 2, 3, 6, 7)};
   for (int i = 0; i < 4; ++i) __builtin_memcpy(row[i] + k, &rows[i], sizeof rows[i]);
 }
 inline void store_fours(const FourOfEight& l, double* const (&row)[8], int k) {

@@ -33,7 +33,7 @@ struct Received {
     Double4 column[3];
     unrolled<3>([&](auto j) {
       const Double4 Z0 = vector<j>(), Z1 = vector<3 + j>(), Z2 = vector<6 + j>();
-      const Double4 own = __builtin_shuffle(__builtin_shuffle(Z0, Z1, Mask4{3, 7, 3, 7}), Z2, Mask4{0, 1, 7, 7});
+      const Double4 own = __builtin_shufflevector(__builtin_shufflevector(Z0, Z1, 3, 7, 3, 7), Z2, 0, 1, 7, 7);
       column[j] = C[0] * Z0 + C[1] * Z1 + C[2] * Z2 - own;
     });
     return {column[0], column[1], column[2]};

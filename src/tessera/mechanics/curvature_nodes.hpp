@@ -22,10 +22,10 @@ inline void unrolled(Body&& body) {
 }
 
 /// The fourth lane in all.
-inline Double4 fourth(const Double4& v) { return __builtin_shuffle(v, Mask4{3, 3, 3, 3}); }
+inline Double4 fourth(const Double4& v) { return __builtin_shufflevector(v, v, 3, 3, 3, 3); }
 
 inline Double4 with_fourth(const Double4& v, double fourth) {
-  return __builtin_shuffle(v, Double4{} + fourth, Mask4{0, 1, 2, 7});
+  return __builtin_shufflevector(v, Double4{} + fourth, 0, 1, 2, 7);
 }
 
 inline Double4 load4(const double* from) {
@@ -37,10 +37,12 @@ inline Double4 load4(const double* from) {
 /// The `n`-th of the vectors that are `numbers` numbers together.
 template <Index n, Index numbers>
 inline Double4 vector_of(const double* all) {
-  if constexpr (3 * n + 4 <= numbers)
+  if constexpr (3 * n + 4 <= numbers) {
     return load4(all + 3 * n);
-  else
-    return __builtin_shuffle(load4(all + 3 * n - 1), Mask4{1, 2, 3, 3});
+  } else {
+    const Double4 v = load4(all + 3 * n - 1);
+    return __builtin_shufflevector(v, v, 1, 2, 3, 3);
+  }
 }
 
 /// Columns of a tensor, each with a component of a position.

@@ -47,7 +47,7 @@ inline void store_row(double* to, const Row& row) {
 /// The first eight numbers of three columns of three.
 template <class Eight>
 inline Eight eight_of(const Double4& c0, const Double4& c1, const Double4& c2) {
-  const TwoFours eight{__builtin_shuffle(c0, c1, Mask4{0, 1, 2, 4}), __builtin_shuffle(c1, c2, Mask4{1, 2, 4, 5})};
+  const TwoFours eight{__builtin_shufflevector(c0, c1, 0, 1, 2, 4), __builtin_shufflevector(c1, c2, 1, 2, 4, 5)};
   if constexpr (std::is_same_v<Eight, Double8>)
     return joined(eight.low, eight.high);
   else
