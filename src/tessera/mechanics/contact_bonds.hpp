@@ -73,10 +73,11 @@ inline Nodes<Double4> load_nodes(const TileNode* nodes, const std::uint16_t* loc
 #ifdef TESSERA_WIDE_KERNEL
 
 /// Two halves, each on a boundary of 32 bytes. The second is inserted by the load, where compilers take a shuffle more
-/// to join registers; shuffles are what limits the contact sweep.
+/// to join registers; shuffles are what limits the contact sweep. (A mask of ones is none; without it gcc warns of its
+/// own header.)
 TESSERA_WIDE_INLINE Double8 load_halves(const double* low, const double* high) {
   return reinterpret_cast<Double8>(
-      _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(low)), _mm256_load_pd(high), 1));
+      _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_load_pd(low)), _mm256_load_pd(high), 1));
 }
 TESSERA_WIDE_INLINE FourOfEight load_aligned_fours(const double* const (&row)[8], int k) {
   return transposed_halves(load_halves(row[0] + k, row[2] + k), load_halves(row[1] + k, row[3] + k),

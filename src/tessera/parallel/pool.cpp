@@ -41,7 +41,7 @@ Pool::~Pool() {
 
 void Pool::run(std::int64_t blocks, void (*body)(void*, std::int64_t), void* context) {
   // Chunks small enough that a thread which the machine holds up does not hold up the others.
-  job_ = {body, context, blocks, std::max<std::int64_t>(1, blocks / (8 * threads()))};
+  job_ = {body, context, blocks, std::max<std::int64_t>(1, blocks / (std::int64_t{8} * threads()))};
   next_.store(0, std::memory_order_relaxed);
   busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
   generation_.fetch_add(1, std::memory_order_release);
