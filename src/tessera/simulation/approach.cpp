@@ -96,10 +96,9 @@ std::vector<std::string> Approach::warnings() const {
   for (const Pair& pair : pairs_)
     if (pair.meeting)
       list.push_back(fmt::format(
-          "bodies \"{}\" and \"{}\" came to each other at ({:.4g}, {:.4g}, {:.4g}) m, seen first at t = {:.4g} s, and "
-          "go "
-          "through each other, for bodies do not feel each other yet: trust the time before, keep them apart, or make "
-          "them one shape (union)",
+          "bodies \"{}\" and \"{}\" came to each other at ({:.4g}, {:.4g}, {:.4g}) m, seen first at t = {:.4g} s, "
+          "and go through each other, for bodies do not feel each other yet: trust the time before, keep them apart, "
+          "or make them one shape (union)",
           model_.bodies[pair.first].name, model_.bodies[pair.second].name, pair.meeting->x.x, pair.meeting->x.y,
           pair.meeting->x.z, pair.meeting->time));
   return list;
