@@ -143,15 +143,24 @@ bool is_whole(const Mesh& mesh) {
   });
 }
 
-/// What is left of `a` and `b`; nothing when it is bounded by a surface that passes an edge more than once.
+/// Makes `result` of `a` and `b`; false when it is bounded by a surface that passes an edge more than once.
+template <class Parameters>
+bool combine(Boolean boolean, Mesh& a, Mesh& b, Mesh& result, const Parameters& carrying) {
+  if (boolean == Boolean::unite) return pmp::corefine_and_compute_union(a, b, result, carrying);
+  if (boolean == Boolean::subtract) return pmp::corefine_and_compute_difference(a, b, result, carrying);
+  return pmp::corefine_and_compute_intersection(a, b, result, carrying);
+}
+
+/// What is left of `a` and `b`; nothing when that is no sound surface. With assertions CGAL finds some of these itself.
 std::optional<Mesh> combined(Boolean boolean, Mesh& a, Mesh& b) {
   Mesh result;
   std::map<const Mesh*, Sides> sides{{&a, sides_of(a)}, {&b, sides_of(b)}, {&result, sides_of(result)}};
-  const auto carrying = CGAL::parameters::visitor(CarrySides(sides));
-  const bool is_sound = boolean == Boolean::unite      ? pmp::corefine_and_compute_union(a, b, result, carrying)
-                        : boolean == Boolean::subtract ? pmp::corefine_and_compute_difference(a, b, result, carrying)
-                                                       : pmp::corefine_and_compute_intersection(a, b, result, carrying);
-  if (!is_sound || !is_whole(result)) return std::nullopt;
+  try {
+    if (!combine(boolean, a, b, result, CGAL::parameters::visitor(CarrySides(sides)))) return std::nullopt;
+  } catch (const CGAL::Failure_exception&) {
+    return std::nullopt;
+  }
+  if (!is_whole(result)) return std::nullopt;
   return result;
 }
 
