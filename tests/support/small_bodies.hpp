@@ -8,6 +8,7 @@
 
 #include "tessera/discretization/cell_measure.hpp"
 #include "tessera/discretization/delaunay.hpp"
+#include "tessera/discretization/moved_means.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
 #include "tessera/geometry/particles.hpp"
@@ -112,6 +113,7 @@ inline Discretization discretize(Method method, const VoronoiBody& body, Integra
           : discretize_ghosts(body.X, body.cells, body.D,
                               method == Method::variational ? GhostForce::variational : GhostForce::quasi_static);
   if (integration == Integration::cell) d.measure = measure_of_cells(body.cells);
+  if (d.measure && method == Method::variational) d.measure->moved = moved_means(d, body.cells);
   return d;
 }
 

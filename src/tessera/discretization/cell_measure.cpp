@@ -48,6 +48,25 @@ ResolvedInverse resolved_inverse(const Symmetric3& K) {
   return result;
 }
 
+/// Calls take(b, C_ab) for the neighbours with a common face.
+template <class Take>
+void for_each_difference(const Discretization& d, Index a, Take&& take) {
+  const std::vector<Vec3>& C = d.measure->centroid;
+  for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
+    const auto bond = static_cast<std::size_t>(i);
+    if (d.bonds.area_over_length[bond] == 0.0) continue;
+    const Index b = d.bonds.neighbour[bond];
+    take(b, C[static_cast<std::size_t>(b)] - C[static_cast<std::size_t>(a)]);
+  }
+}
+
+/// K_a^-1.
+ResolvedInverse inverse_of_fit(const Discretization& d, Index a) {
+  Symmetric3 K;
+  for_each_difference(d, a, [&](Index, const Vec3& C_ab) { K += (1.0 / norm2(C_ab)) * square(C_ab); });
+  return resolved_inverse(K);
+}
+
 }  // namespace
 
 Mat3 cubature_points(const Symmetric3& second_moment) {
@@ -96,22 +115,26 @@ CellMeasure measure_of_dual_cells(const TetrahedralMesh& mesh) {
 CellGradients cell_gradients(const Discretization& d) {
   CellGradients g;
   g.to_points.resize(d.X.size());
-  const std::vector<Vec3>& C = d.measure->centroid;
   g.unresolved = parallel::sum<Index>(d.particles(), [&](std::int64_t row) {
     const auto a = static_cast<Index>(row);
-    Symmetric3 K;
-    for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
-      const auto bond = static_cast<std::size_t>(i);
-      if (d.bonds.area_over_length[bond] == 0.0) continue;
-      const Vec3 c = C[static_cast<std::size_t>(d.bonds.neighbour[bond])] - C[static_cast<std::size_t>(a)];
-      K += (1.0 / norm2(c)) * square(c);
-    }
-    const ResolvedInverse inverse = resolved_inverse(K);
+    const ResolvedInverse inverse = inverse_of_fit(d, a);
     g.to_points[static_cast<std::size_t>(a)] =
         to_mat3(inverse.inverse) * cubature_points(d.measure->second_moment[static_cast<std::size_t>(a)]);
     return inverse.directions < 3 ? 1 : 0;
   });
   return g;
+}
+
+std::vector<MeanTerm> derivative(const Discretization& d, Index a, const Vec3& v) {
+  const Vec3 along = to_mat3(inverse_of_fit(d, a).inverse) * v;
+  std::vector<MeanTerm> terms;
+  double sum = 0.0;
+  for_each_difference(d, a, [&](Index b, const Vec3& C_ab) {
+    terms.push_back({b, dot(C_ab, along) / norm2(C_ab)});
+    sum += terms.back().weight;
+  });
+  terms.push_back({a, -sum});
+  return terms;
 }
 
 }  // namespace tessera

@@ -27,6 +27,9 @@ struct CellGradients {
   Index unresolved = 0;  // cells that have no neighbours in some direction, along which F counts as constant
 };
 
+/// The derivative along v that this fit has in cell a: the sum of weight F over the terms, the cell itself included.
+std::vector<MeanTerm> derivative(const Discretization& d, Index a, const Vec3& v);
+
 /// Needs the measure and the bonds.
 CellGradients cell_gradients(const Discretization& d);
 

@@ -124,10 +124,23 @@ struct SecondOrder {
   Csr<FaceTerm> extrapolated;           // ... and their positions by particles alone, one row each
 };
 
+/// The part that F of a particle, or its stress, has in a sum.
+struct MeanTerm {
+  Index particle = 0;
+  double weight = 0.0;
+};
+
+/// Cells whose F_a is not F at their centroid, which is F_a + sum_b weight (F_b - F_a).
+struct MovedMeans {
+  std::vector<Index> particles;  // ascending
+  Csr<MeanTerm> terms;           // one row for each
+};
+
 /// The regions over which the F_a are means, for integrals over cells. Each has the particle's volume V_a.
 struct CellMeasure {
   std::vector<Vec3> centroid;             // [m]
   std::vector<Symmetric3> second_moment;  // about the centroid, per volume; for the set-up only [m2]
+  MovedMeans moved{};                     // none but at free faces of ghosts
 };
 
 /// What every formulation becomes: particles, bonds, boundary nodes with their closure, and load shares.

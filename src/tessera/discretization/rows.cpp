@@ -69,6 +69,12 @@ void append_second_order(SecondOrder& all, SecondOrder more, Index shift) {
   append_rows(all.extrapolated, more.extrapolated);
 }
 
+void append_means(MovedMeans& all, MovedMeans more, Index shift) {
+  for (const Index a : more.particles) all.particles.push_back(a + shift);
+  for (MeanTerm& t : more.terms.value) t.particle += shift;
+  append_rows(all.terms, more.terms);
+}
+
 }  // namespace
 
 void append(Discretization& all, Discretization body) {
@@ -109,6 +115,7 @@ void append(Discretization& all, Discretization body) {
   if (body.measure) {
     move_to_end(all.measure->centroid, body.measure->centroid);
     move_to_end(all.measure->second_moment, body.measure->second_moment);
+    append_means(all.measure->moved, std::move(body.measure->moved), particles);
   }
   if (body.second_order) append_second_order(*all.second_order, std::move(*body.second_order), particles);
   all.body_volume += body.body_volume;

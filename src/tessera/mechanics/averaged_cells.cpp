@@ -121,8 +121,9 @@ void pressure_sweep(const System& s, Index k, const Tensor* F, const HistorySpan
 
 StressSums averaged_cell_stress_sweep(const System& s, Index k, const Tensor* F, const CellMeans& means,
                                       const HistorySpan& history, ViscousMemory* viscous, double dt,
-                                      TileScratch& scratch, const CellStress& stress, const CellReport& report) {
-  const CellTask task{s, k, F, history, viscous, dt, scratch, report};
+                                      TileScratch& scratch, const CellStress& stress, const CellReport& report,
+                                      const Tensor* at_centroids) {
+  const CellTask task{s, k, F, history, viscous, dt, scratch, report, at_centroids};
   const Index begin = tile_of(s, k).begin;
   const AveragedNeighbours source{{s, k, scratch}, {means.J + begin, means.p + begin}};
   [[maybe_unused]] const Registers registers = widest_registers();

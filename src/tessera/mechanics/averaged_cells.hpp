@@ -13,16 +13,18 @@ struct CellMeans {
   const double* p;  // S S p [Pa]
 };
 
-/// J_a of the tile's own cells. Needs the nodes of the tile, as all of these.
+/// J_a of the tile's own cells by F at their centroids. Needs the nodes of the tile, as all of these.
 void volume_sweep(const System& s, Index tile, const Tensor* F, TileScratch& scratch, double* J);
 
-/// p_a of the tile's own cells, the mean Cauchy stress that the law gives at their points, by Jbar. Histories stay.
+/// p_a of the tile's own cells, the mean Cauchy stress that the law gives at their points, by Jbar and F at their
+/// centroids. Histories stay.
 void pressure_sweep(const System& s, Index tile, const Tensor* F, const HistorySpan& history, TileScratch& scratch,
                     const double* Jbar, double* p);
 
 /// As cell_stress_sweep.
 StressSums averaged_cell_stress_sweep(const System& s, Index tile, const Tensor* F, const CellMeans& means,
                                       const HistorySpan& history, ViscousMemory* viscous, double dt,
-                                      TileScratch& scratch, const CellStress& stress, const CellReport& report);
+                                      TileScratch& scratch, const CellStress& stress, const CellReport& report,
+                                      const Tensor* at_centroids = nullptr);
 
 }  // namespace tessera

@@ -81,6 +81,9 @@ struct CellTask {
   double dt;
   TileScratch& scratch;
   const CellReport& report;
+  const Tensor* at_centroids = nullptr;  // F there, where some F_a belong elsewhere; null: F
+
+  const Tensor* F_of_points() const { return at_centroids != nullptr ? at_centroids : F; }
 };
 
 /// Adds the elastic and viscous stress of a group's cells to the scratch, and what they report.
@@ -131,7 +134,7 @@ inline StressSums cells_of(const CellTask& task, const Law& law, const Source& s
     const CellGroup<Lanes> group = Source::template Variation<Lanes>::group(task.s, tile, q);
     Lanes9Of<Lanes> E[3];
     variation.find(group, E);
-    const Lanes9Of<Lanes> F = load_F(task.F + tile.begin, group);
+    const Lanes9Of<Lanes> F = load_F(task.F_of_points() + tile.begin, group);
     const CubatureStress<Lanes> c = point_stresses(source, task, law, group, F, E);
     smallest_J = smallest_J < c.smallest_J ? smallest_J : c.smallest_J;
     not_finite += c.not_finite;

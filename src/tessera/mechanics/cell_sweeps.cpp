@@ -114,8 +114,8 @@ void return_moments(const CellTask& task, const CellStress& stress, [[maybe_unus
 
 StressSums cell_stress_sweep(const System& s, Index k, const Tensor* F, const HistorySpan& history,
                              ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
-                             const CellReport& report) {
-  return run({s, k, F, history, viscous, dt, scratch, report}, stress, widest_registers());
+                             const CellReport& report, const Tensor* at_centroids) {
+  return run({s, k, F, history, viscous, dt, scratch, report, at_centroids}, stress, widest_registers());
 }
 
 StressSums cell_stress_sweep_of_four(const System& s, Index k, const Tensor* F, const HistorySpan& history,

@@ -29,10 +29,11 @@ struct CellReport {
 
 /// The elastic and viscous stress of the tile's own particles by their points: adds it, and what the moments of the
 /// points' stresses do to the tile's own F_b, to the scratch's T (or P, where there is room for it) and leaves it in
-/// `stress`, along with what they do to those of the rim. Needs the nodes that contact_sweep has left.
+/// `stress`, along with what they do to those of the rim. Needs the nodes that contact_sweep has left. `at_centroids`
+/// is F at the centroids of cells, where some F_a belong elsewhere.
 StressSums cell_stress_sweep(const System& s, Index tile, const Tensor* F, const HistorySpan& history,
                              ViscousMemory* viscous, double dt, TileScratch& scratch, const CellStress& stress,
-                             const CellReport& report);
+                             const CellReport& report, const Tensor* at_centroids = nullptr);
 
 /// The same on four cells at once, whatever the processor. Its stresses have the same bits.
 StressSums cell_stress_sweep_of_four(const System& s, Index tile, const Tensor* F, const HistorySpan& history,

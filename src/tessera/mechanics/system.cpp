@@ -57,6 +57,25 @@ void transpose_closure(System& s) {
   for (const Target& t : rows.value) s.returned_to_node.value.push_back(t.item);
 }
 
+/// The transpose of the means that are moved, per volume.
+MovedMeans returned_means(const Discretization& d) {
+  std::vector<RowItem<MeanTerm>> parts;
+  const MovedMeans& moved = d.measure->moved;
+  for (Index row = 0; row < moved.terms.rows(); ++row) {
+    const Index a = moved.particles[static_cast<std::size_t>(row)];
+    double sum = 0.0;
+    for (const MeanTerm& t : moved.terms.row(row)) {
+      const double share = d.volume[static_cast<std::size_t>(a)] / d.volume[static_cast<std::size_t>(t.particle)];
+      parts.push_back({t.particle, {a, share * t.weight}});
+      sum += t.weight;
+    }
+    parts.push_back({a, {a, -sum}});
+  }
+  MovedMeans returned;
+  returned.terms = group_by_used_row(std::move(parts), returned.particles);
+  return returned;
+}
+
 /// The owners of each tile's boundary nodes.
 void find_owners_of_tiles(System& s) {
   for (Tile& t : s.tiles.tiles)
@@ -104,6 +123,7 @@ System make_system(Discretization d, std::vector<Material> materials, const std:
     s.d.measure->second_moment = {};
   } else if (s.d.measure) {
     s.gradients = cell_gradients(s.d);
+    s.returned_means = returned_means(s.d);
     s.d.measure->second_moment = {};
     s.stress_points = stress_points_of_a_cell;
   }

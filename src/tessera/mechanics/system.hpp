@@ -55,6 +55,7 @@ struct System {
   Csr<ReturnTerm> returned_to_node;  // the same for nodes that other nodes follow: one row per boundary node
 
   std::optional<CellGradients> gradients;         // where cells are integrated by cubature
+  MovedMeans returned_means;                      // P_a in T_b of other cells, where F is moved to centroids
   std::optional<VolumeAverage> average;           // where laws see a mean change of volume
   std::optional<SecondOrderSystem> second_order;  // set for second-order integration only
 

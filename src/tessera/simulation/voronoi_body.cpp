@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tessera/discretization/cell_measure.hpp"
+#include "tessera/discretization/moved_means.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi.hpp"
 #include "tessera/geometry/shape_surface.hpp"
@@ -97,6 +98,8 @@ void discretize_cells(const Case& c, const BodyCells& made, const ConditionList&
   for (const PointConstraint& p : b.pieces) D.push_back(p.D);
   b.d = discretize(c.method, {made.X, {}, b.user_number}, made.cells, D);
   if (c.method.integration == Integration::cell) b.d.measure = measure_of_cells(made.cells);
+  if (b.d.measure && c.method.boundary == BoundaryTreatment::variational)
+    b.d.measure->moved = moved_means(b.d, made.cells);
   if (b.d.second_order)
     if (std::string note = describe_unresolved(b.surface.body, b.d.second_order->derivatives.resolved); !note.empty())
       b.notes.push_back(std::move(note));
