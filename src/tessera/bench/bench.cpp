@@ -107,7 +107,7 @@ System build(Index particles, const MethodSpec& method, std::map<std::string, do
   return system;
 }
 
-/// Time that threads spend in the sweeps of the second pass over the tiles.
+/// Time that threads spend in the sweeps of a pass over the tiles.
 struct PassSeconds {
   double contact = 0.0, stress = 0.0, force = 0.0;
 
@@ -137,14 +137,12 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   parallel::Workspaces<TileScratch> scratches([&] { return std::make_unique<TileScratch>(s); });
   using Lease = parallel::Workspaces<TileScratch>::Lease;
   stages["strain"] = seconds_per_call([&] {
+    if (s.second_order) return find_strain(s, state.x.data(), curved, F.data());
     parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
       const Lease scratch(scratches);
       strain_sweep(s, static_cast<Index>(tile), state.x.data(), F.data(), *scratch);
     });
   });
-  if (s.second_order) {
-    stages["faces"] = seconds_per_call([&] { add_curvature_strain(s, state.x.data(), curved, F.data()); });
-  }
   const auto second_pass = [&](std::int64_t task) {
     const Lease scratch(scratches);
     const auto tile = static_cast<Index>(task);
@@ -173,17 +171,12 @@ void measure_sweeps(const System& s, std::map<std::string, double>& stages) {
   stages["contact"] = share * each.contact;
   stages["stress"] = share * each.stress;
   stages["force"] = share * each.force;
-  if (s.second_order) {
-    stages["curvature stress"] = seconds_per_call([&] { return_curvature(s, curved); });
+  if (s.second_order)
     stages["force"] = seconds_per_call([&] {
-      parallel::for_tasks(s.tiles.size(), [&](std::int64_t task) {
-        const Lease scratch(scratches);
-        const auto tile = static_cast<Index>(task);
-        recall_first(s, tile, curved, scratch->T.data());
-        force_sweep(s, tile, scratch->T.data(), s.tiles.B.data(), s.d.B_aa.data(), f.data(), rim_f.data());
+      parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
+        add_forces(s, static_cast<Index>(tile), curved, f.data(), rim_f.data());
       });
     });
-  }
   stages["rims"] = seconds_per_call([&] {
     parallel::for_ranges(0, s.particles(), [&](std::int64_t begin, std::int64_t end) {
       collect_rims(s.tiles, rim_f.data(), f.data() + begin, f.data() + begin, static_cast<Index>(begin),

@@ -21,34 +21,42 @@ struct PerParticle {
 };
 
 constexpr double hessian = sizeof(Hessian), face = sizeof(CurvatureRows::FaceFactors);
-constexpr double map = sizeof(SecondDerivatives::Map);
+constexpr double quadratic_fit = sizeof(QuadraticFit);
 
 /// The rows of second-order integration: faces of all tiles, entries of rows.
 struct CurvaturePerParticle {
-  explicit CurvaturePerParticle(const System& s)
-      : faces(static_cast<double>(s.second_order->rows.M.size()) / static_cast<double>(s.particles())),
-        neighbours(static_cast<double>(s.second_order->rows.neighbours.size()) / static_cast<double>(s.particles())) {}
+  explicit CurvaturePerParticle(const System& s) {
+    const CurvatureRows& r = s.second_order->rows;
+    const auto each = [&](const auto& list) {
+      return static_cast<double>(list.size()) / static_cast<double>(s.particles());
+    };
+    faces = each(r.M), neighbours = each(r.neighbours), others = each(r.others), far = each(r.far);
+    means = each(r.means), averaged = each(s.second_order->averaged);
+  }
 
-  double faces, neighbours;
+  double rows() const {
+    return neighbours * sizeof(CurvatureRows::Neighbour) + (others + far) * local + sizeof(CurvatureRows::Row);
+  }
+  double bonds() const { return (neighbours + others) * vec3; }
+
+  double faces, neighbours, others, far, means, averaged;
 };
 
-/// What second-order integration streams beside the rest: each array once a sweep.
+/// What second-order integration streams beside contact, rims and motion: each array once a sweep.
 double second_order_bytes(const PerParticle& n, const CurvaturePerParticle& c) {
-  const double nodes = 1.0 + n.rim, rows = c.neighbours * sizeof(CurvatureRows::Neighbour) + sizeof(CurvatureRows::Row);
-  const double hessians = nodes * (tensor + vec3) + n.rim * index + rows + map + hessian;
-  const double strain =
-      nodes * (hessian + vec3) + n.rim * index + rows + c.faces * face + 2.0 * tensor + 2.0 * number + hessian;
-  const double cubature = 2.0 * hessian + sizeof(Symmetric3) + number + 2.0 * tensor;
-  const double moments = nodes * (tensor + hessian + 2.0 * vec3) + n.rim * index + rows + c.faces * face + map + vec3 +
-                         c.neighbours * local + nodes * (tensor + local);
-  const double forces = tensor + n.rim * tensor;
-  return hessians + strain + cubature + moments + forces;
+  const double nodes = 1.0 + n.rim, rim = n.rim * index;
+  const double first = nodes * (vector + vec3) + rim + c.rows() + c.bonds() + quadratic_fit + number + tensor + hessian;
+  const double positions = nodes * (hessian + vec3) + rim + c.rows() + c.faces * face + 2.0 * tensor + number;
+  const double means = c.averaged * (4.0 * hessian + index);
+  const double cubature = 2.0 * hessian + sizeof(Symmetric3) + 2.0 * number + 2.0 * tensor;
+  const double forces = nodes * (tensor + vec3) + rim + c.rows() + c.bonds() + c.faces * face + quadratic_fit + vec3 +
+                        hessian + c.means * (index + hessian) + 2.0 * vector + n.rim * vector;
+  return first + positions + means + cubature + forces;
 }
 
-double second_order_memory_bytes(const PerParticle& n, const CurvaturePerParticle& c) {
-  const double rows = c.neighbours * (sizeof(CurvatureRows::Neighbour) + local) + sizeof(CurvatureRows::Row) +
-                      c.faces * face + map + vec3 + number + (1.0 + n.rim) * local;
-  return rows + sizeof(Symmetric3) + 2.0 * hessian + 2.0 * tensor + n.rim * tensor + vec3 /* centroid */;
+double second_order_memory_bytes(const CurvaturePerParticle& c) {
+  const double rows = c.rows() + c.bonds() + c.means * index + c.faces * face + quadratic_fit + number;
+  return rows + sizeof(Symmetric3) + (2.0 + c.averaged) * hessian + tensor + vec3 /* centroid */;
 }
 
 }  // namespace
@@ -63,20 +71,22 @@ double bytes_per_particle_step(const System& s) {
   const double kick_and_drift = number + vector + 2.0 * vector + 2.0 * vector;
   const double cells = (1.0 + n.rim) * (vec3 + local) + sizeof(Mat3) + n.bonds * incoming + 2.0 * tensor +
                        n.rim * (2.0 * tensor + index) + offset + number;
-  return strain + contact_and_stress + force + rims + kick_and_drift + (s.gradients ? cells : 0.0) +
-         (s.second_order ? second_order_bytes(n, CurvaturePerParticle(s)) : 0.0);
+  const double all = contact_and_stress + rims + kick_and_drift;
+  if (s.second_order) return all + second_order_bytes(n, CurvaturePerParticle(s));
+  return all + strain + force + (s.gradients ? cells : 0.0);
 }
 
 double bytes_per_particle(const System& s) {
   const PerParticle n(s);
-  const double bonds = n.bonds * incoming + n.slots * (vec3 + local + stiffness) + row;
-  const double rims = n.rim * (2.0 * index + local + vector) + local + offset;
+  const double gradients = s.second_order ? 0.0 : n.bonds * incoming + n.slots * vec3 + (1.0 + n.rim) * local;
+  const double bonds = gradients + n.slots * (local + stiffness) + row;
+  const double rims = n.rim * (2.0 * index + vector) + offset;
   const double constants = vec3 /* X */ + number /* V */ + vec3 /* B_aa */ + number /* m */;
   const double state = 2.0 * vector /* x, v */ + vector /* f */ + tensor /* F */;
   const double viscous = s.viscosity.empty() ? 0.0 : 2.0 * tensor + sizeof(ViscosityLaw);
   const double cells = vec3 /* centroid */ + sizeof(Mat3) + (1.0 + n.rim) * tensor;
   return bonds + rims + constants + state + viscous + (s.gradients ? cells : 0.0) +
-         (s.second_order ? second_order_memory_bytes(n, CurvaturePerParticle(s)) : 0.0);
+         (s.second_order ? second_order_memory_bytes(CurvaturePerParticle(s)) : 0.0);
 }
 
 }  // namespace tessera

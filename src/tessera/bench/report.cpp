@@ -30,8 +30,7 @@ nlohmann::ordered_json accuracy_json(const AccuracyForTime& a) {
 
 // In the order in which they come; a method has some of them.
 constexpr std::array stages_of_setup = {"points", "cells", "bonds", "system"};
-constexpr std::array stages_of_step = {"strain",           "faces", "contact", "stress",
-                                       "curvature stress", "force", "rims",    "kick"};
+constexpr std::array stages_of_step = {"strain", "contact", "stress", "force", "rims", "kick"};
 
 template <std::size_t n>
 std::vector<std::string> present(const std::array<const char*, n>& names, const BenchReport& report) {

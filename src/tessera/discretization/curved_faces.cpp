@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tessera/discretization/first_derivatives.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/discretization/voronoi_common.hpp"
 #include "tessera/parallel/collect.hpp"
@@ -83,78 +82,36 @@ Symmetric3 boundary_curvature(std::span<const Vec3> X, const Cells& cells, std::
   return 0.5 * S;
 }
 
-/// Curvature of all faces by the particles alone, and what goes with it.
-struct Curvature {
-  std::vector<Symmetric3> interior, boundary;
-  std::vector<char> spans;  // of boundary faces: 0 where no particles span the way there
-};
-
-Curvature curvature(const Discretization& d, const Cells& cells, const Csr<FaceOfCell>& faces,
-                    const FacePositions& positions, std::span<const Index> held, const SecondOrder& s) {
-  Curvature c{interior_curvature(d.X, cells, faces, positions), std::vector<Symmetric3>(cells.boundary.size()),
-              std::vector<char>(cells.boundary.size(), 1)};
-  std::vector<Index> row(cells.boundary.size(), -1);
-  for (std::size_t i = 0; i < held.size(); ++i) row[static_cast<std::size_t>(held[i])] = static_cast<Index>(i);
-  parallel::for_each(static_cast<std::int64_t>(row.size()), [&](std::int64_t i) {
+/// The same of all of them that follow particles.
+std::vector<Symmetric3> boundary_curvature(std::span<const Vec3> X, const Cells& cells,
+                                           const FacePositions& positions) {
+  std::vector<Symmetric3> M(cells.boundary.size());
+  parallel::for_each(static_cast<std::int64_t>(M.size()), [&](std::int64_t i) {
+    const std::span<const FaceTerm> position = positions.boundary.row(static_cast<Index>(i));
     const auto k = static_cast<std::size_t>(i);
-    const std::span<const FaceTerm> position =
-        row[k] >= 0 ? s.extrapolated.row(row[k]) : positions.boundary.row(static_cast<Index>(i));
-    c.spans[k] = !position.empty();
-    if (c.spans[k]) c.boundary[k] = boundary_curvature(d.X, cells, k, position);
+    if (!position.empty()) M[k] = boundary_curvature(X, cells, k, position);
   });
-  return c;
+  return M;
 }
 
-/// How far the means F'_a are from those over the cells.
-std::vector<MeanError> mean_errors(const Cells& cells, const Csr<FaceOfCell>& faces, const Curvature& c) {
-  std::vector<MeanError> errors(cells.volume.size());
-  parallel::for_each(static_cast<std::int64_t>(errors.size()), [&](std::int64_t i) {
-    const auto a = static_cast<std::size_t>(i);
-    for (const FaceOfCell& g : faces.row(static_cast<Index>(i))) {
-      const auto k = static_cast<std::size_t>(g.face);
-      const bool inside = g.neighbour >= 0;
-      const Vec3 area = !inside                                        ? cells.boundary[k].area
-                        : cells.interior[k].a == static_cast<Index>(i) ? cells.interior[k].area
-                                                                       : -cells.interior[k].area;
-      for (std::size_t j = 0; j < 3; ++j)
-        errors[a][j] -= (area[static_cast<int>(j)] / cells.volume[a]) * (inside ? c.interior[k] : c.boundary[k]);
-    }
-  });
-  return errors;
-}
-
-/// F'_a of the undeformed body, the identity but for a layer of cells whose way to a side no particles span.
-Mat3 undeformed(const Discretization& d, const FirstDerivatives& F, Index a) {
-  const auto k = static_cast<std::size_t>(a);
-  Mat3 sum;
-  F.for_each_term(a, [&](Index b, const Vec3& B) { sum += outer(d.X[static_cast<std::size_t>(b)] - d.X[k], B); });
-  return (1.0 / d.volume[k]) * sum;
-}
-
-/// Cells without second derivatives: those that have several faces in common with one neighbour (their curvature is
-/// not that of a bond), and those whose first derivatives are not comparable with their neighbours'.
-std::vector<char> refused_cells(const Discretization& d, const Csr<FaceOfCell>& faces, const SecondOrder& s,
-                                const Curvature& c) {
-  std::vector<char> refused(d.X.size(), 0);
-  std::vector<Mat3> start(d.X.size());
-  const FirstDerivatives F(d, s);
-  parallel::for_each(d.particles(), [&](std::int64_t i) {
-    start[static_cast<std::size_t>(i)] = undeformed(d, F, static_cast<Index>(i));
-  });
-  parallel::for_each(d.particles(), [&](std::int64_t i) {
+/// Refused are cells that have several faces in common with one neighbour, for their curvature is not that of a bond.
+std::vector<CellPlace> places_of(const Csr<FaceOfCell>& faces) {
+  std::vector<CellPlace> places(static_cast<std::size_t>(faces.rows()), CellPlace::inside);
+  const auto is_at_boundary = [&](Index a) {
+    const std::span<const FaceOfCell> all = faces.row(a);
+    return std::any_of(all.begin(), all.end(), [](const FaceOfCell& f) { return f.neighbour < 0; });
+  };
+  parallel::for_each(faces.rows(), [&](std::int64_t i) {
+    CellPlace& place = places[static_cast<std::size_t>(i)];
     const auto a = static_cast<Index>(i);
-    bool bad = false;
     const std::span<const FaceOfCell> interior = interior_faces(faces, a);
-    for (std::size_t k = 0; k < interior.size(); ++k) bad = bad || is_repeated(interior, k);
-    for (const FaceOfCell& g : faces.row(a))
-      bad = bad || (g.neighbour < 0 && c.spans[static_cast<std::size_t>(g.face)] == 0);
-    F.for_each_neighbour(a, [&](Index b) {
-      const Mat3 change = start[static_cast<std::size_t>(b)] - start[static_cast<std::size_t>(a)];
-      bad = bad || contract(change, change) > 1e-16;
-    });
-    refused[static_cast<std::size_t>(i)] = bad;
+    if (std::any_of(interior.begin(), interior.end(), [&](const FaceOfCell& f) { return is_at_boundary(f.neighbour); }))
+      place = CellPlace::near_boundary;
+    if (is_at_boundary(a)) place = CellPlace::at_boundary;
+    for (std::size_t k = 0; k < interior.size(); ++k)
+      if (is_repeated(interior, k)) place = CellPlace::refused;
   });
-  return refused;
+  return places;
 }
 
 /// M_f of the bonds between resolved cells.
@@ -187,7 +144,7 @@ void join(std::vector<FaceTerm>& terms) {
 
 /// Positions of the boundary faces with second derivatives.
 Csr<FaceTerm> boundary_positions(const Discretization& d, const Cells& cells, const FacePositions& positions,
-                                 std::span<const Symmetric3> M, const SecondOrder& s) {
+                                 std::span<const Symmetric3> M, const SecondDerivatives& s) {
   return parallel::collect_rows<FaceTerm>(static_cast<Index>(M.size()),
                                           [&](Index k, parallel::RowCollector<FaceTerm>& out) {
                                             const std::span<const FaceTerm> linear = positions.boundary.row(k);
@@ -195,7 +152,7 @@ Csr<FaceTerm> boundary_positions(const Discretization& d, const Cells& cells, co
                                             std::vector<FaceTerm> terms(linear.begin(), linear.end());
                                             const Index owner = cells.boundary[static_cast<std::size_t>(k)].owner;
                                             double sum = 0.0;
-                                            for (const CurvatureTerm& t : mean_curvature(d, s, cells.centroid, owner)) {
+                                            for (const CurvatureTerm& t : cell_curvature(d, s, owner)) {
                                               const double weight = contract(t.W, M[static_cast<std::size_t>(k)]);
                                               terms.push_back({t.particle, weight});
                                               sum += weight;
@@ -219,19 +176,6 @@ std::vector<CurvedSurface> free_surfaces(const Cells& cells, std::span<const Sym
   return surfaces;
 }
 
-/// The boundary faces that have nodes, and where the particles see them.
-std::vector<Index> held_faces(const Discretization& d, const Cells& cells, const Csr<FaceOfCell>& faces,
-                              std::span<const Mat3> D, SecondOrder& s) {
-  std::vector<Index> held;
-  for (std::size_t k = 0; k < cells.boundary.size(); ++k) {
-    if (is_zero(D[k])) continue;
-    held.push_back(static_cast<Index>(k));
-    s.held.push_back({cells.boundary[k].owner, cells.boundary[k].area});
-  }
-  s.extrapolated = extrapolated_positions(d.X, cells, faces, D, held);
-  return held;
-}
-
 }  // namespace
 
 FaceSpread face_spread(const Symmetric3& second_moment, double area) {
@@ -251,12 +195,11 @@ CurvedFaces curved_faces(const Discretization& d, const Cells& cells, const Csr<
                          const FacePositions& positions, std::span<const Mat3> D) {
   CurvedFaces result;
   SecondOrder& s = result.second_order;
-  const std::vector<Index> held = held_faces(d, cells, faces, D, s);
-  const Curvature c = curvature(d, cells, faces, positions, held, s);
-  s.derivatives = second_derivatives(d, s, cells.centroid, mean_errors(cells, faces, c), refused_cells(d, faces, s, c));
-  s.M = curvature_of_bonds(d, faces, c.interior, s.derivatives.resolved);
-  s.surfaces = free_surfaces(cells, c.boundary, D, s.derivatives.resolved);
-  result.boundary = boundary_positions(d, cells, positions, c.boundary, s);
+  const std::vector<Symmetric3> boundary = boundary_curvature(d.X, cells, positions);
+  s.derivatives = second_derivatives(d, places_of(faces));
+  s.M = curvature_of_bonds(d, faces, interior_curvature(d.X, cells, faces, positions), s.derivatives.resolved);
+  s.surfaces = free_surfaces(cells, boundary, D, s.derivatives.resolved);
+  result.boundary = boundary_positions(d, cells, positions, boundary, s.derivatives);
   return result;
 }
 

@@ -120,8 +120,6 @@ struct SecondOrder {
   SecondDerivatives derivatives;
   RawField<Symmetric3> M;               // per bond, of its face; zero where one of the cells is not resolved [m2]
   std::vector<CurvedSurface> surfaces;  // sorted by particle
-  std::vector<HeldFace> held;           // the faces of the boundary nodes, in their order...
-  Csr<FaceTerm> extrapolated;           // ... and their positions by particles alone, one row each
 };
 
 /// The part that F of a particle, or its stress, has in a sum.
@@ -164,6 +162,13 @@ struct Discretization {
   double body_volume = 0.0;                     // of the solid, for the identity sum V_a = V [m3]
 
   Index particles() const { return static_cast<Index>(X.size()); }
+  /// Calls body(bond, b) for the bonds of a that have a face.
+  template <class Body>
+  void for_each_face_neighbour(Index a, Body&& body) const {
+    for (Offset bond = bonds.begin(a); bond < bonds.end(a); ++bond)
+      if (bonds.area_over_length[static_cast<std::size_t>(bond)] > 0.0)
+        body(bond, bonds.neighbour[static_cast<std::size_t>(bond)]);
+  }
   /// Reference branch vector X_ab of the bond at position `bond` in row a [m]; cheaper to compute than to keep.
   Vec3 branch(Index a, Offset bond) const {
     return X[static_cast<std::size_t>(bonds.neighbour[static_cast<std::size_t>(bond)])] -

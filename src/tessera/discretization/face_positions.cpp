@@ -164,16 +164,6 @@ std::vector<Index> marked(const std::vector<char>& marks) {
 
 }  // namespace
 
-Csr<FaceTerm> extrapolated_positions(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
-                                     std::span<const Mat3> D, std::span<const Index> wanted) {
-  const FaceFitter fitter(X, cells, faces);
-  return parallel::collect_rows<FaceTerm>(static_cast<Index>(wanted.size()), [&](Index i, Collector& out) {
-    thread_local Scratch scratch;
-    const auto k = static_cast<std::size_t>(wanted[static_cast<std::size_t>(i)]);
-    fitter.extrapolate(cells.boundary[k], D[k], scratch, out);
-  });
-}
-
 FacePositions face_positions(const Generators& X, const Cells& cells, const Csr<FaceOfCell>& faces,
                              std::span<const Mat3> D) {
   const FaceFitter fitter(X, cells, faces);

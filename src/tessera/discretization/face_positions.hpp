@@ -12,6 +12,12 @@
 
 namespace tessera {
 
+/// One particle's share in the position of a face, c_f = sum_k weight_k x_k.
+struct FaceTerm {
+  Index particle = 0;
+  double weight = 0.0;
+};
+
 /// Positions of all faces, in the order of Cells::interior and Cells::boundary.
 ///
 /// An interior face has c_f = (1 - s) x_a + s x_b + sum_c w_c x_c over its stencil: a, b and their common neighbours;
@@ -43,11 +49,6 @@ class CommonNeighbours {
  private:
   std::vector<Index> places_;
 };
-
-/// The positions of the boundary faces `wanted` by the particles alone, whatever is prescribed there: one row each,
-/// exact for linear motion, empty where no particles span the way to the face.
-Csr<FaceTerm> extrapolated_positions(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
-                                     std::span<const Mat3> D, std::span<const Index> wanted);
 
 /// The positions of the consistent formulation: exact for linear motion, from the nearest particles. `D` holds one
 /// projection per boundary face. Throws GeometryError that names particles whose neighbours lie in a plane or line.

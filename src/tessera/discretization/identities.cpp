@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "tessera/base/error.hpp"
-#include "tessera/discretization/first_derivatives.hpp"
 #include "tessera/discretization/rows.hpp"
 #include "tessera/parallel/parallel.hpp"
 
@@ -56,11 +55,11 @@ double duality(const Discretization& d) {
   return w;
 }
 
-/// What free faces hand to particles through the mean second derivatives of their cells.
+/// What free faces hand to particles through the second derivatives of their cells.
 void add_curvature(const Discretization& d, std::vector<Balance>& columns) {
   for (const CurvedSurface& s : d.second_order->surfaces) {
     const auto a = static_cast<std::size_t>(s.particle);
-    for (const CurvatureTerm& t : mean_curvature(d, *d.second_order, d.measure->centroid, s.particle)) {
+    for (const CurvatureTerm& t : cell_curvature(d, d.second_order->derivatives, s.particle)) {
       const std::array<Vec3, 6>& m = s.area_moment;
       const Symmetric3& W = t.W;
       const Vec3 B = W.xx * m[0] + W.xy * m[1] + W.xz * m[2] + W.yy * m[3] + W.yz * m[4] + W.zz * m[5];
@@ -70,42 +69,23 @@ void add_curvature(const Discretization& d, std::vector<Balance>& columns) {
   }
 }
 
-/// F'_b of a function.
-template <class Function>
-Vec3 first_derivative(const Discretization& d, const FirstDerivatives& F, Index b, Function&& f) {
-  const auto k = static_cast<std::size_t>(b);
-  const double own = f(d.X[k]);
-  Vec3 sum;
-  F.for_each_term(b, [&](Index c, const Vec3& B) { sum += (f(d.X[static_cast<std::size_t>(c)]) - own) * B; });
-  return (1.0 / d.volume[k]) * sum;
-}
-
 /// Those of a quadratic function, against its own. Particles in one plane do not see all of them.
 double second_derivatives(const Discretization& d) {
-  const Mat3 q{{0.3, -0.7, 0.2, -0.7, 1.1, 0.5, 0.2, 0.5, -0.4}};
+  const Symmetric3 q{0.3, -0.7, 0.2, 1.1, 0.5, -0.4};
   const SecondDerivatives& s = d.second_order->derivatives;
-  const std::vector<Vec3>& C = d.measure->centroid;
-  const FirstDerivatives F(d, *d.second_order);
   std::vector<double> violation(d.X.size());
   parallel::for_each(d.particles(), [&](std::int64_t row) {
     const auto a = static_cast<std::size_t>(row);
-    if (!s.resolved[a]) return;
-    const auto f = [&, size = std::cbrt(d.volume[a])](const Vec3& X) {
-      const Vec3 y = X - d.X[a];
-      return 0.5 * dot(y, q * y) + size * (y.x - y.y + y.z);
-    };
-    const Vec3 own = first_derivative(d, F, static_cast<Index>(row), f);
-    Mat3 G, extent;
-    F.for_each_neighbour(static_cast<Index>(row), [&](Index b) {
-      const Vec3 c = C[static_cast<std::size_t>(b)] - C[a];
-      G += outer(first_derivative(d, F, b, f) - own, c);
-      extent += outer(c, c);
-    });
-    if (determinant(extent) < 1e-14 * std::pow(trace(extent), 3)) return;
-    std::array<double, 6> h{};
-    for (std::size_t r = 0; r < 6; ++r)
-      for (std::size_t k = 0; k < 9; ++k) h[r] += s.map[a][9 * r + k] * G.m[k];
-    violation[a] = magnitude(to_mat3(Symmetric3{h[0], h[1], h[2], h[3], h[4], h[5]}) - q);
+    const double size = std::cbrt(d.volume[a]);
+    Symmetric3 H;
+    Mat3 extent;
+    for (const CurvatureTerm& t : curvature(d, s, static_cast<Index>(row))) {
+      const Vec3 y = d.X[static_cast<std::size_t>(t.particle)] - d.X[a];
+      H += (0.5 * dot(y, q * y) + size * (y.x - y.y + y.z)) * t.W;
+      extent += outer(y, y);
+    }
+    if (s.resolved[a] && determinant(extent) >= 1e-14 * std::pow(trace(extent), 3))
+      violation[a] = magnitude(to_mat3(H - q));
   });
   double w = 0.0;
   for (const double v : violation) w = larger(w, v);

@@ -57,16 +57,15 @@ void append_bonds(Bonds& all, Bonds& more, Index shift) {
 
 void append_second_order(SecondOrder& all, SecondOrder more, Index shift) {
   for (CurvedSurface& s : more.surfaces) s.particle += shift;
-  for (HeldFace& f : more.held) f.owner += shift;
-  for (FaceTerm& t : more.extrapolated.value) t.particle += shift;
-  move_to_end(all.derivatives.map, more.derivatives.map);
+  for (Index& b : more.derivatives.far.value) b += shift;
+  move_to_end(all.derivatives.fit, more.derivatives.fit);
+  append_rows(all.derivatives.far, more.derivatives.far);
   move_to_end(all.derivatives.resolved, more.derivatives.resolved);
+  move_to_end(all.derivatives.averaged, more.derivatives.averaged);
   move_to_end(all.derivatives.weight, more.derivatives.weight);
   move_to_end(all.derivatives.amplification, more.derivatives.amplification);
   move_to_end(all.M, more.M);
   move_to_end(all.surfaces, more.surfaces);
-  move_to_end(all.held, more.held);
-  append_rows(all.extrapolated, more.extrapolated);
 }
 
 void append_means(MovedMeans& all, MovedMeans more, Index shift) {

@@ -1,295 +1,231 @@
 #include "tessera/discretization/second_derivatives.hpp"
 
-#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+#include <utility>
 
-#include "tessera/discretization/first_derivatives.hpp"
-#include "tessera/parallel/parallel.hpp"
+#include "tessera/discretization/discretization.hpp"
+#include "tessera/discretization/quadratic_fit.hpp"
+#include "tessera/parallel/collect.hpp"
 
 namespace tessera {
 
 namespace {
 
-// Second derivatives that amplify noise more than this are not resolved. Two layers of particles amplify without end.
+// Second derivatives that amplify noise more than this are not resolved.
 constexpr double largest_amplification = 12.0;
-// The weight of a cell in means falls with this power of its deviation: those at sides count for little.
+// Nor are those of cells whose depth over amplification, in the mean with their neighbours, is less than this: two
+// layers. One cell counts as no deeper than that; cells with narrow stencils do.
+constexpr double least_certainty = 0.25, most_depth = 2.0;
+// Away from the boundary a fit takes the neighbours with a common face and then, until it amplifies no more than this,
+// the nearest of theirs, as many as this.
+constexpr double enough = 6.0;
+constexpr std::size_t most_added = 12;
+// Particles whose distances differ by less than this fraction are taken together, so that lattices keep their symmetry.
+constexpr double equally_far = 1e-6;
+// The weight of a cell in means falls with this power of its deviation: the surest ones count.
 constexpr int falls_with = 8;
-// How much of the mean variance the fit adds to each component of G's, so that it stays regular.
-constexpr double regular = 1e-3;
-// Eigenvalues below this fraction of the largest belong to directions in which the particles do not extend.
-constexpr double flat_below = 1e-12;
-// Ratio of pivots below which first derivatives do not determine all second ones.
-constexpr double undetermined = 1e-10;
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-using Matrix9 = Eigen::Matrix<double, 9, 9>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Matrix96 = Eigen::Matrix<double, 9, 6>;
-using Matrix69 = Eigen::Matrix<double, 6, 9>;
-
-constexpr std::array<std::array<int, 3>, 3> place{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
-
-Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
-
-/// Components as factors of xx, xy, xz, yy, yz, zz.
-std::array<double, 6> factors(const Symmetric3& m) { return {m.xx, 2.0 * m.xy, 2.0 * m.xz, m.yy, 2.0 * m.yz, m.zz}; }
-
-/// What F'_a makes of noise of unit size in every particle's position.
-Matrix3d variance(const FirstDerivatives& F, Index a, double volume) {
-  Matrix3d S = Matrix3d::Zero();
-  Vector3d sum = Vector3d::Zero();
-  F.for_each_term(a, [&](Index, const Vec3& B) {
-    const Vector3d v = to_eigen(B);
-    S += v * v.transpose();
-    sum += v;
-  });
-  return (S + sum * sum.transpose()) / (volume * volume);
-}
-
-/// One particle's fit while it is put together.
-struct Fit {
-  Matrix3d inverse;               // K^-1
-  Matrix96 L = Matrix96::Zero();  // differences of F' for each second derivative
-  Matrix9 noise = Matrix9::Zero();
-  double square = 0.0;  // mean square of the distances to the neighbours
-  bool flat = false;
-  Vector3d normal = Vector3d::Zero();  // of the plane, if it is
-};
-
-/// Of second derivatives where positions have noise of unit size.
-struct Noise {
-  double deviation = std::numeric_limits<double>::infinity();  // [1/m2]
+/// One particle's fit and what it is over.
+struct Fitted {
+  FittedQuadratic quadratic;
   double amplification = std::numeric_limits<double>::infinity();
+  std::size_t far = 0;  // how many of the particles beyond the neighbours with a common face, nearest first
+  bool averaged = false;
+  double depth = most_depth;
+
+  double certainty() const { return depth / amplification; }
 };
 
+/// Fits particles one by one.
 class Fitter {
  public:
-  Fitter(const Discretization& d, const SecondOrder& s, std::span<const Vec3> C, std::span<const MeanError> errors)
-      : d_(d), F_(d, s), C_(C), errors_(errors), variance_(d.X.size()) {
-    parallel::for_each(d.particles(), [&](std::int64_t a) {
-      variance_[static_cast<std::size_t>(a)] =
-          variance(F_, static_cast<Index>(a), d_.volume[static_cast<std::size_t>(a)]);
-    });
+  Fitted fit(const Discretization& d, Index a, CellPlace place) {
+    find_near(d, a);
+    if (near_ == 0) return {};
+    if (place == CellPlace::inside) {
+      extent_ = Extent::space;
+      if (const Fitted fitted = over(0); fitted.amplification <= enough) return fitted;
+    }
+    find_far(d, a);
+    if (place == CellPlace::inside)
+      if (const Fitted fitted = few(); fitted.amplification <= enough) return fitted;
+    Fitted all = over(particles_.size() - near_);
+    all.averaged = place != CellPlace::near_boundary;
+    all.depth = std::min(depth(branches_, near_, extent_), most_depth);
+    return all;
   }
 
-  /// Sets the map and returns what it makes of noise, infinitely much where there is no fit.
-  Noise fit(Index a, SecondDerivatives::Map& map) const {
-    Fit f;
-    if (!spread(a, f)) return {};
-    collect(a, f);
-    Matrix69 S;
-    if (!solve(f, S)) return {};
-    for (int r = 0; r < 6; ++r)
-      for (int j = 0; j < 3; ++j) {
-        const Eigen::RowVector3d row = S.block<1, 3>(r, 3 * j) * f.inverse;
-        for (int k = 0; k < 3; ++k) map[static_cast<std::size_t>(9 * r + 3 * j + k)] = row(k);
-      }
-    const Matrix6 v = S * f.noise * S.transpose();
-    const double deviation = std::sqrt(v(0, 0) + v(3, 3) + v(5, 5) + 2.0 * (v(1, 1) + v(2, 2) + v(4, 4)));
-    return {deviation, f.square * deviation};
+  /// Of the one that was fitted last, what the fit takes beyond the neighbours with a common face, ascending.
+  std::span<const Index> far(const Fitted& fitted) {
+    const auto begin = particles_.begin() + static_cast<std::ptrdiff_t>(near_);
+    std::sort(begin, begin + static_cast<std::ptrdiff_t>(fitted.far));
+    return std::span(particles_).subspan(near_, fitted.far);
   }
 
  private:
-  Vec3 offset(Index a, Index b) const { return C_[static_cast<std::size_t>(b)] - C_[static_cast<std::size_t>(a)]; }
-
-  bool spread(Index a, Fit& f) const {
-    Matrix3d K = Matrix3d::Zero();
-    int n = 0;
-    F_.for_each_neighbour(a, [&](Index b) {
-      const Vector3d c = to_eigen(offset(a, b));
-      K += c * c.transpose();
-      ++n;
-    });
-    if (n < 2) return false;
-    f.square = K.trace() / n;
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(K);
-    const Vector3d values = eigen.eigenvalues();
-    if (!(values(1) > flat_below * values(2))) return false;
-    f.flat = !(values(0) > flat_below * values(2));
-    if (f.flat) f.normal = eigen.eigenvectors().col(0);
-    f.inverse.setZero();
-    for (int i = f.flat ? 1 : 0; i < 3; ++i)
-      f.inverse += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() / values(i);
-    return true;
-  }
-
-  void collect(Index a, Fit& f) const {
-    Vector3d own = Vector3d::Zero();
-    F_.for_each_neighbour(a, [&](Index b) {
-      const Vec3 c = offset(a, b);
-      const Vector3d w = f.inverse * to_eigen(c);
-      for (int j = 0; j < 3; ++j) {
-        const auto k_j = static_cast<std::size_t>(j);
-        const std::array<double, 6> error =
-            factors(errors_[static_cast<std::size_t>(b)][k_j] - errors_[static_cast<std::size_t>(a)][k_j]);
-        for (int k = 0; k < 3; ++k) {
-          for (int i = 0; i < 3; ++i) f.L(3 * j + k, place[k_j][static_cast<std::size_t>(i)]) += w(k) * c[i];
-          for (int r = 0; r < 6; ++r) f.L(3 * j + k, r) += w(k) * error[static_cast<std::size_t>(r)];
-        }
-      }
-      add_noise(variance_[static_cast<std::size_t>(b)], w, f.noise);
-      own += w;
-    });
-    add_noise(variance_[static_cast<std::size_t>(a)], own, f.noise);
-  }
-
-  static void add_noise(const Matrix3d& S, const Vector3d& w, Matrix9& noise) {
-    const Matrix3d ww = w * w.transpose();
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 3; ++i) noise.block<3, 3>(3 * j, 3 * i) += S(j, i) * ww;
-  }
-
-  /// The inverse of L that amplifies least.
-  static bool solve(const Fit& f, Matrix69& S) {
-    const Matrix9 weight = f.noise + (regular / 9.0 * f.noise.trace()) * Matrix9::Identity();
-    const Eigen::LLT<Matrix9> cholesky(weight);
-    if (cholesky.info() != Eigen::Success) return false;
-    if (f.flat) return solve_in_plane(f, cholesky, S);
-    const Matrix96 right = cholesky.solve(f.L);
-    const Eigen::LDLT<Matrix6> ldlt(f.L.transpose() * right);
-    const auto pivots = ldlt.vectorD();
-    if (!(pivots.minCoeff() > undetermined * pivots.maxCoeff())) return false;
-    S = ldlt.solve(right.transpose());
-    return true;
-  }
-
-  /// The same of the first and second derivatives in the plane.
-  static bool solve_in_plane(const Fit& f, const Eigen::LLT<Matrix9>& weight, Matrix69& S) {
-    const Matrix3d P = Matrix3d::Identity() - f.normal * f.normal.transpose();
-    Matrix9 first;
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 3; ++i) first.block<3, 3>(3 * j, 3 * i) = P(j, i) * P;
-    const Matrix96 L = first * f.L * in_plane(P);
-    const Matrix96 right = weight.solve(L);
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(L.transpose() * right);
-    const double cut = undetermined * eigen.eigenvalues()(5);
-    if (!(eigen.eigenvalues()(3) > cut)) return false;
-    const auto vectors = eigen.eigenvectors().rightCols<3>();
-    S = vectors * eigen.eigenvalues().tail<3>().cwiseInverse().asDiagonal() * vectors.transpose() * right.transpose() *
-        first;
-    return true;
-  }
-
-  /// H -> P H P by components.
-  static Matrix6 in_plane(const Matrix3d& P) {
-    Matrix6 Q;
-    for (int c = 0; c < 6; ++c) {
-      Matrix3d unit = Matrix3d::Zero();
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          if (place[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] == c) unit(i, j) = 1.0;
-      const Matrix3d image = P * unit * P;
-      for (int i = 0; i < 3; ++i)
-        for (int j = i; j < 3; ++j) Q(place[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)], c) = image(i, j);
+  /// The least that is enough.
+  Fitted few() const {
+    Fitted fitted;
+    for (std::size_t added = 1; added <= std::min(most_added, particles_.size() - near_); ++added) {
+      if (belongs_to_next(near_ + added)) continue;
+      fitted = over(added);
+      if (fitted.amplification <= enough) break;
     }
-    return Q;
+    return fitted;
   }
 
-  const Discretization& d_;
-  FirstDerivatives F_;
-  std::span<const Vec3> C_;
-  std::span<const MeanError> errors_;
-  std::vector<Matrix3d> variance_;
+  bool belongs_to_next(std::size_t count) const {
+    return count < branches_.size() && norm(branches_[count]) < (1.0 + equally_far) * norm(branches_[count - 1]);
+  }
+
+  void find_near(const Discretization& d, Index a) {
+    particles_.clear();
+    branches_.clear();
+    d.for_each_face_neighbour(a, [&](Offset, Index b) {
+      particles_.push_back(b);
+      branches_.push_back(branch(d, a, b));
+    });
+    near_ = particles_.size();
+  }
+
+  /// Neighbours of those.
+  void find_far(const Discretization& d, Index a) {
+    for (std::size_t i = 0; i < near_; ++i)
+      d.for_each_face_neighbour(particles_[i], [&](Offset, Index c) {
+        if (c != a && std::find(particles_.begin(), particles_.end(), c) == particles_.end()) particles_.push_back(c);
+      });
+    const auto square = [&](Index b) { return norm2(branch(d, a, b)); };
+    std::sort(particles_.begin() + static_cast<std::ptrdiff_t>(near_), particles_.end(),
+              [&](Index l, Index r) { return std::pair(square(l), l) < std::pair(square(r), r); });
+    for (std::size_t i = near_; i < particles_.size(); ++i) branches_.push_back(branch(d, a, particles_[i]));
+    extent_ = extent(branches_);
+  }
+
+  static Vec3 branch(const Discretization& d, Index a, Index b) {
+    return d.X[static_cast<std::size_t>(b)] - d.X[static_cast<std::size_t>(a)];
+  }
+
+  /// The fit over the neighbours with a common face and as many others; `extent_` is that of all, so that a layer of a
+  /// body is no plane.
+  Fitted over(std::size_t others) const {
+    const std::span<const Vec3> all(branches_);
+    double square = 0.0;
+    for (const Vec3& X : all.first(near_)) square += norm2(X);
+    Fitted fitted;
+    fitted.quadratic = fit_quadratic(all.first(near_ + others), extent_);
+    fitted.amplification = square / static_cast<double>(near_) * fitted.quadratic.deviation;
+    fitted.far = others;
+    return fitted;
+  }
+
+  std::vector<Index> particles_;
+  std::size_t near_ = 0;  // of them, with a common face
+  std::vector<Vec3> branches_;
+  Extent extent_ = Extent::line;
 };
 
-/// Adds up entries of equal particles, which become ascending.
-template <class Entry, class Add>
-void join(std::vector<Entry>& entries, Add&& add) {
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const Entry& l, const Entry& r) { return l.particle < r.particle; });
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < entries.size(); ++i)
-    if (entries[i].particle == entries[last].particle)
-      add(entries[last], entries[i]);
-    else
-      entries[++last] = entries[i];
-  entries.resize(std::min(entries.size(), last + 1));
+void add_terms(const Discretization& d, Index a, std::span<const Index> particles, const QuadraticFit& fit,
+               std::vector<CurvatureTerm>& terms) {
+  for (const Index b : particles)
+    terms.push_back({b, share_of(fit, d.X[static_cast<std::size_t>(b)] - d.X[static_cast<std::size_t>(a)])});
 }
 
-/// How much of F'_b the mean H_a has: one vector for each second derivative.
-struct GradientShare {
-  Index particle = 0;
-  std::array<Vec3, 6> m;
-};
+/// Over a cell and its neighbours.
+double mean(const Discretization& d, Index a, const std::vector<double>& values) {
+  double sum = values[static_cast<std::size_t>(a)];
+  int count = 1;
+  d.for_each_face_neighbour(a, [&](Offset, Index b) { sum += values[static_cast<std::size_t>(b)], ++count; });
+  return sum / count;
+}
 
-std::vector<GradientShare> gradient_shares(const FirstDerivatives& F, const SecondDerivatives& s,
-                                           std::span<const Vec3> C, Index a) {
-  double sum = 0.0;
-  std::vector<Index> cells{a};
-  F.for_each_neighbour(a, [&](Index b) { cells.push_back(b); });
-  for (const Index b : cells) sum += s.weight[static_cast<std::size_t>(b)];
-  std::vector<GradientShare> shares;
-  for (const Index b : cells) {
-    const auto k = static_cast<std::size_t>(b);
-    if (s.weight[k] == 0.0) continue;
-    GradientShare own{b, {}};
-    F.for_each_neighbour(b, [&](Index c) {
-      const Vec3 way = (s.weight[k] / sum) * (C[static_cast<std::size_t>(c)] - C[k]);
-      GradientShare share{c, {}};
-      for (std::size_t r = 0; r < 6; ++r) {
-        const double* row = s.map[k].data() + 9 * r;
-        share.m[r] = {row[0] * way.x + row[1] * way.y + row[2] * way.z,
-                      row[3] * way.x + row[4] * way.y + row[5] * way.z,
-                      row[6] * way.x + row[7] * way.y + row[8] * way.z};
-        own.m[r] -= share.m[r];
-      }
-      shares.push_back(share);
-    });
-    shares.push_back(own);
-  }
-  join(shares, [](GradientShare& to, const GradientShare& more) {
-    for (std::size_t r = 0; r < 6; ++r) to.m[r] += more.m[r];
+/// The rows of those that are not resolved become empty.
+Csr<Index> of_resolved(const Csr<Index>& far, const std::vector<char>& resolved) {
+  return parallel::collect_rows<Index>(far.rows(), [&](Index a, parallel::RowCollector<Index>& row) {
+    if (!resolved[static_cast<std::size_t>(a)]) return;
+    for (const Index b : far.row(a)) row.add(b);
   });
-  return shares;
+}
+
+/// Adds up terms of equal particles, which become ascending.
+void join(std::vector<CurvatureTerm>& terms) {
+  std::stable_sort(terms.begin(), terms.end(),
+                   [](const CurvatureTerm& l, const CurvatureTerm& r) { return l.particle < r.particle; });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < terms.size(); ++i)
+    if (terms[i].particle == terms[last].particle)
+      terms[last].W += terms[i].W;
+    else
+      terms[++last] = terms[i];
+  terms.resize(std::min(terms.size(), last + 1));
 }
 
 }  // namespace
 
-SecondDerivatives second_derivatives(const Discretization& d, const SecondOrder& s, std::span<const Vec3> C,
-                                     std::span<const MeanError> errors, std::span<const char> refused) {
-  const Fitter fitter(d, s, C, errors);
+SecondDerivatives second_derivatives(const Discretization& d, std::span<const CellPlace> places) {
   const double size = std::cbrt(std::accumulate(d.volume.begin(), d.volume.end(), 0.0) / d.particles());
   SecondDerivatives result;
-  result.map.resize(d.X.size());
+  result.fit.resize(d.X.size());
   result.resolved.resize(d.X.size());
+  result.averaged.resize(d.X.size());
   result.weight.resize(d.X.size());
   result.amplification.resize(d.X.size());
+  std::vector<double> certainty(d.X.size());
+  result.far = parallel::collect_rows<Index>(d.particles(), [&](Index i, parallel::RowCollector<Index>& far) {
+    const auto a = static_cast<std::size_t>(i);
+    thread_local Fitter fitter;
+    const Fitted fitted = places[a] == CellPlace::refused ? Fitted{} : fitter.fit(d, i, places[a]);
+    result.amplification[a] = fitted.amplification;
+    certainty[a] = fitted.certainty();
+    if (!(fitted.amplification <= largest_amplification)) return;
+    result.fit[a] = fitted.quadratic.fit;
+    result.averaged[a] = fitted.averaged;
+    result.weight[a] = std::pow(size * size * fitted.quadratic.deviation, -falls_with);
+    for (const Index b : fitter.far(fitted)) far.add(b);
+  });
   parallel::for_each(d.particles(), [&](std::int64_t i) {
     const auto a = static_cast<std::size_t>(i);
-    SecondDerivatives::Map& map = result.map[a];
-    map.fill(0.0);
-    const Noise noise = refused[a] ? Noise{} : fitter.fit(static_cast<Index>(i), map);
-    result.amplification[a] = noise.amplification;
-    result.resolved[a] = noise.amplification <= largest_amplification;
-    if (result.resolved[a])
-      result.weight[a] = std::pow(size * size * noise.deviation, -falls_with);
-    else
-      map.fill(0.0);
+    result.resolved[a] = result.weight[a] > 0.0 && mean(d, static_cast<Index>(i), certainty) >= least_certainty;
+    if (result.resolved[a]) return;
+    result.fit[a] = {};
+    result.averaged[a] = 0;
+    result.weight[a] = 0.0;
   });
+  if (std::count(result.resolved.begin(), result.resolved.end(), 0) > 0)
+    result.far = of_resolved(result.far, result.resolved);
   return result;
 }
 
-std::vector<CurvatureTerm> mean_curvature(const Discretization& d, const SecondOrder& s, std::span<const Vec3> C,
-                                          Index a) {
-  if (!s.derivatives.resolved[static_cast<std::size_t>(a)]) return {};
-  const FirstDerivatives F(d, s);
+std::vector<CurvatureTerm> curvature(const Discretization& d, const SecondDerivatives& s, Index a) {
   std::vector<CurvatureTerm> terms;
-  for (const GradientShare& share : gradient_shares(F, s.derivatives, C, a)) {
-    const double inverse_volume = 1.0 / d.volume[static_cast<std::size_t>(share.particle)];
+  const auto k = static_cast<std::size_t>(a);
+  if (!s.resolved[k]) return terms;
+  std::vector<Index> near;
+  d.for_each_face_neighbour(a, [&](Offset, Index b) { near.push_back(b); });
+  add_terms(d, a, near, s.fit[k], terms);
+  add_terms(d, a, s.far.row(a), s.fit[k], terms);
+  return terms;
+}
+
+std::vector<CurvatureTerm> cell_curvature(const Discretization& d, const SecondDerivatives& s, Index a) {
+  if (!s.resolved[static_cast<std::size_t>(a)]) return {};
+  std::vector<Index> cells{a};
+  if (s.averaged[static_cast<std::size_t>(a)])
+    d.for_each_face_neighbour(a, [&](Offset, Index b) { cells.push_back(b); });
+  double sum = 0.0;
+  for (const Index b : cells) sum += s.weight[static_cast<std::size_t>(b)];
+  std::vector<CurvatureTerm> terms;
+  for (const Index b : cells) {
+    const double share = s.weight[static_cast<std::size_t>(b)] / sum;
     Symmetric3 own;
-    F.for_each_term(share.particle, [&](Index b, const Vec3& B) {
-      const std::array<Vec3, 6>& m = share.m;
-      const Symmetric3 W = inverse_volume * Symmetric3{dot(m[0], B), dot(m[1], B), dot(m[2], B),
-                                                       dot(m[3], B), dot(m[4], B), dot(m[5], B)};
-      terms.push_back({b, W});
-      own -= W;
-    });
-    terms.push_back({share.particle, own});
+    for (const CurvatureTerm& t : curvature(d, s, b)) {
+      terms.push_back({t.particle, share * t.W});
+      own -= share * t.W;
+    }
+    terms.push_back({b, own});
   }
-  join(terms, [](CurvatureTerm& to, const CurvatureTerm& more) { to.W += more.W; });
+  join(terms);
   std::erase_if(terms, [a](const CurvatureTerm& t) { return t.particle == a; });
   return terms;
 }

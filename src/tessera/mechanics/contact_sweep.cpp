@@ -40,14 +40,15 @@ struct QuadBonds {
   QuadBonds(const System& s, const Tile& tile)
       : neighbour(s.tiles.neighbour.data() + tile.slot),
         area_over_length(s.tiles.area_over_length.data() + tile.slot),
-        B(reinterpret_cast<const char*>(s.tiles.B.data() + tile.slot)),
+        B(forces_come_next(s) ? reinterpret_cast<const char*>(s.tiles.B.data() + tile.slot)
+                              : reinterpret_cast<const char*>(neighbour)),
         B_bytes(forces_come_next(s) ? static_cast<std::ptrdiff_t>(quad * sizeof(Vec3)) : 0) {}
 
   Double4 A_L() const {
     return Double4{area_over_length[0], area_over_length[1], area_over_length[2], area_over_length[3]};
   }
   /// The force sweep reads the gradient vectors of the tile in another order, so they are brought near, unless it
-  /// comes in another pass.
+  /// comes in another pass: then the same line is fetched again and again.
   void fetch_B() const {
     fetch_ahead<0>(B);
     fetch_ahead<64>(B);

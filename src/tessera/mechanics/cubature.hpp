@@ -29,6 +29,13 @@ inline void add(Lanes9Of<Lanes>& sum, const Lanes& s, const Lanes9Of<Lanes>& t) 
   sum.zx += s * t.zx, sum.zy += s * t.zy, sum.zz += s * t.zz;
 }
 
+/// s a + t b
+template <class Lanes>
+inline Lanes9Of<Lanes> combined(const Lanes& s, const Lanes9Of<Lanes>& a, const Lanes& t, const Lanes9Of<Lanes>& b) {
+  return {s * a.xx + t * b.xx, s * a.xy + t * b.xy, s * a.xz + t * b.xz, s * a.yx + t * b.yx, s * a.yy + t * b.yy,
+          s * a.yz + t * b.yz, s * a.zx + t * b.zx, s * a.zy + t * b.zy, s * a.zz + t * b.zz};
+}
+
 /// `history_of(point)` gives the histories of a point, 0 to 5, of the cells.
 template <class Law, class Lanes, class HistoryOf>
 inline CubatureStress<Lanes> cubature_stress(const Law& law, const Lanes9Of<Lanes>& F, const Lanes9Of<Lanes> (&E)[3],
@@ -36,19 +43,23 @@ inline CubatureStress<Lanes> cubature_stress(const Law& law, const Lanes9Of<Lane
   const Lanes one = Lanes{} + 1.0, sixth = Lanes{} + 1.0 / stress_points_of_a_cell;
   CubatureStress<Lanes> c;
   c.smallest_J += std::numeric_limits<double>::infinity();
-  for (int q = 0; q < 3; ++q)
+  for (int q = 0; q < 3; ++q) {
+    Lanes9Of<Lanes> first;
     for (int side = 0; side < 2; ++side) {
       const Lanes sign = side == 0 ? one : -one;
-      Lanes9Of<Lanes> point = F;
-      add(point, sign, E[q]);
-      const LanesResponseOf<Lanes> answer = response(law, point, history_of(2 * q + side));
-      add(c.mean, sixth, answer.stress);
-      add(c.moment[q], sixth * sign, answer.stress);
+      const LanesResponseOf<Lanes> answer = response(law, combined(one, F, sign, E[q]), history_of(2 * q + side));
+      if (side == 0) {
+        first = answer.stress;
+      } else {
+        c.moment[q] = combined(sixth, first, -sixth, answer.stress);
+        add(c.mean, sixth, combined(one, first, one, answer.stress));
+      }
       c.energy += sixth * answer.energy;
       c.dissipated += sixth * answer.dissipated;
       c.smallest_J = c.smallest_J < answer.J ? c.smallest_J : answer.J;
       c.not_finite += answer.J - answer.J;
     }
+  }
   return c;
 }
 

@@ -21,11 +21,25 @@ inline void unrolled(Body&& body) {
   call(std::make_integer_sequence<Index, n>{});
 }
 
-/// The fourth lane in all.
-inline Double4 fourth(const Double4& v) { return __builtin_shufflevector(v, v, 3, 3, 3, 3); }
+/// One lane in all.
+template <int lane>
+inline Double4 lane_of(const Double4& v) {
+  return __builtin_shufflevector(v, v, lane, lane, lane, lane);
+}
+inline Double4 fourth(const Double4& v) { return lane_of<3>(v); }
+
+/// One number in all lanes.
+inline Double4 everywhere(double value) { return Double4{value, value, value, value}; }
 
 inline Double4 with_fourth(const Double4& v, double fourth) {
-  return __builtin_shufflevector(v, Double4{} + fourth, 0, 1, 2, 7);
+  return __builtin_shufflevector(v, everywhere(fourth), 0, 1, 2, 7);
+}
+
+/// A vector and a zero.
+inline Double4 vector_at(const Vec3& v) {
+  Double2 first;
+  __builtin_memcpy(&first, &v, sizeof first);
+  return __builtin_shufflevector(first, Double2{v.z, 0.0}, 0, 1, 2, 3);
 }
 
 inline Double4 load4(const double* from) {
@@ -85,28 +99,46 @@ inline void for_each_node(const System& s, Index k, Fill&& fill, Ahead&& ahead) 
 
 /// The rows of a tile, one after the other.
 struct RowReader {
-  RowReader(const System& s, Index k)
-      : tile(tile_of(s, k)),
-        row(s.second_order->rows.rows.data() + tile.begin),
-        neighbour(s.second_order->rows.neighbours.data() + start(s, k).neighbour),
-        M(s.second_order->rows.M.data() + start(s, k).face),
-        next_M(M),
-        map(s.second_order->rows.map[0].data() + map_size * static_cast<Offset>(tile.begin)) {}
+  RowReader(const System& s, Index k) : RowReader(s.second_order->rows, tile_of(s, k), k) {}
 
-  static const CurvatureRows::Start& start(const System& s, Index k) {
-    return s.second_order->rows.start[static_cast<std::size_t>(k)];
+  RowReader(const CurvatureRows& r, const Tile& of, Index k)
+      : tile(of),
+        row(r.rows.data() + tile.begin),
+        neighbour(r.neighbours.data() + start(r, k).neighbour),
+        B(r.B.data() + start(r, k).neighbour + start(r, k).other),
+        other(r.others.data() + start(r, k).other),
+        far(r.far.data() + start(r, k).far),
+        mean(r.means.data() + start(r, k).mean),
+        M(r.M.data() + start(r, k).face),
+        next_M(M),
+        fit(r.fit.data() + tile.begin) {}
+
+  static const CurvatureRows::Start& start(const CurvatureRows& r, Index k) {
+    return r.start[static_cast<std::size_t>(k)];
   }
 
-  /// Calls body(neighbour) for those of the row. With each it fetches a little of what the streams will bring later:
+  /// Calls body(neighbour, B) for those of the row. With each it fetches a little of what the streams will bring later:
   /// half a line each, as much as a row takes of them.
   template <class Body, class... Stream>
   void for_each_neighbour(Body&& body, const Stream*... stream) {
-    for (const CurvatureRows::Neighbour* end = neighbour + row->neighbours; neighbour != end; ++neighbour) {
+    for (const CurvatureRows::Neighbour* end = neighbour + row->neighbours; neighbour != end; ++neighbour, ++B) {
       (fetch_ahead<4096>(stream), ...);
       ((stream += 4), ...);
-      body(*neighbour);
+      body(*neighbour, *B);
     }
     next_M += row->first_named;
+  }
+
+  /// Then: calls body(b, B) for the bonds without a face.
+  template <class Body>
+  void for_each_other(Body&& body) {
+    for (const std::uint16_t* end = other + row->others; other != end; ++other, ++B) body(*other, *B);
+  }
+
+  /// Calls body(b) for the local numbers that the row's fit takes beyond the neighbours.
+  template <class Body>
+  void for_each_far(Body&& body) {
+    for (const std::uint16_t* end = far + row->far; far != end; ++far) body(*far);
   }
 
   /// Fetches what will be written for a row of later.
@@ -117,16 +149,17 @@ struct RowReader {
   }
   static constexpr Index rows_ahead = 12;
 
-  void next() { ++row, map += map_size; }
+  void next() { mean += row->means, ++row, ++fit; }
 
   const Tile& tile;
   const CurvatureRows::Row* row;
   const CurvatureRows::Neighbour* neighbour;
+  const Vec3* B;
+  const std::uint16_t *other, *far;
+  const Index* mean;
   const CurvatureRows::FaceFactors* M;
   const CurvatureRows::FaceFactors* next_M;
-  const double* map;
-
-  static constexpr Offset map_size = std::tuple_size_v<SecondDerivatives::Map>;
+  const QuadraticFit* fit;
 };
 
 }  // namespace tessera

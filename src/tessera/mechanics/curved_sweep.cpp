@@ -11,12 +11,12 @@ namespace {
 
 constexpr int number_of[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};  // of second derivatives
 
-/// F varies by the mean second derivatives; where they are not resolved, as is known. Arrays begin with the tile.
+/// F varies by the cells' second derivatives; where they are not resolved, as is known. Arrays begin with the tile.
 struct CurvedStrains {
   const Symmetric3* points;
   const double* inverse_sum;
-  const Hessian* H;
-  Hessian* G;
+  const Hessian* weighted;
+  Hessian* moments;
   Index begin;                        // of the tile
   std::span<const Index> unresolved;  // of the tile's own cells
   ThreeTensors* strains;              // of those; they become what multiplies them in the energy
@@ -33,10 +33,12 @@ struct CurvedStrains {
       const double *point[lanes_in<Lanes>], *row[lanes_in<Lanes>];
       for (Index lane = 0; lane < group.lanes; ++lane) {
         point[lane] = &s_.points[group.local[lane]].xx;
-        row[lane] = s_.H[group.local[lane]].h;
+        row[lane] = s_.weighted[group.local[lane]].h;
       }
       const FourOf<Lanes> p0 = load_fours(point, 0), p2 = load_fours(point, 2);
-      p_[0] = p0.n0, p_[1] = p0.n1, p_[2] = p0.n2, p_[3] = p0.n3, p_[4] = p2.n2, p_[5] = p2.n3;
+      const Lanes share = group(s_.inverse_sum);
+      p_[0] = share * p0.n0, p_[1] = share * p0.n1, p_[2] = share * p0.n2;
+      p_[3] = share * p0.n3, p_[4] = share * p2.n2, p_[5] = share * p2.n3;
       const FourOf<Lanes> h0 = load_fours(row, 0), h4 = load_fours(row, 4), h8 = load_fours(row, 8),
                           h12 = load_fours(row, 12), h14 = load_fours(row, 14);
       const Lanes h[18] = {h0.n0, h0.n1, h0.n2, h0.n3,  h4.n0,  h4.n1,  h4.n2,  h4.n3,  h8.n0,
@@ -61,7 +63,7 @@ struct CurvedStrains {
 
     inline void take(const CellGroup<Lanes>& group, const Lanes& volume, const Lanes9Of<Lanes> (&Z)[3],
                      Lanes9Of<Lanes>&) {
-      const Lanes scale = volume * group(s_.inverse_sum);
+      fetch_moments(group);
       Lanes z[3][9];  // row by row
       for (int q = 0; q < 3; ++q) {
         const Lanes numbers[9] = {Z[q].xx, Z[q].xy, Z[q].xz, Z[q].yx, Z[q].yy, Z[q].yz, Z[q].zx, Z[q].zy, Z[q].zz};
@@ -76,10 +78,10 @@ struct CurvedStrains {
               sum += point_of(j, q) * z[q][3 * i + k];
               if (k != j) sum += point_of(k, q) * z[q][3 * i + j];
             }
-            g[3 * number_of[j][k] + i] = scale * sum;
+            g[3 * number_of[j][k] + i] = volume * sum;
           }
       double* row[lanes_in<Lanes>];
-      for (Index lane = 0; lane < group.lanes; ++lane) row[lane] = s_.G[group.local[lane]].h;
+      for (Index lane = 0; lane < group.lanes; ++lane) row[lane] = s_.moments[group.local[lane]].h;
       for (int n = 0; n < 16; n += 4) store_fours({g[n], g[n + 1], g[n + 2], g[n + 3]}, row, n);
       store_fours({g[14], g[15], g[16], g[17]}, row, 14);
       for_unresolved(group, [&](Index lane, ThreeTensors& known) {
@@ -96,12 +98,15 @@ struct CurvedStrains {
    private:
     void fetch_later(const CellGroup<Lanes>& group) const {
       const Index later = quad * group.first + 24;
+      for (std::size_t at = 0; at < group.lanes * sizeof(Hessian); at += 64)
+        __builtin_prefetch(reinterpret_cast<const char*>(s_.weighted + later) + at);
+    }
+    void fetch_moments(const CellGroup<Lanes>& group) const {
+      const Index later = quad * group.first + 24;
       for (std::size_t at = 0; at < group.lanes * sizeof(Symmetric3); at += 64)
         __builtin_prefetch(reinterpret_cast<const char*>(s_.points + later) + at);
-      for (std::size_t at = 0; at < group.lanes * sizeof(Hessian); at += 64) {
-        __builtin_prefetch(reinterpret_cast<const char*>(s_.H + later) + at);
-        __builtin_prefetch(reinterpret_cast<const char*>(s_.G + later) + at, 1);
-      }
+      for (std::size_t at = 0; at < group.lanes * sizeof(Hessian); at += 64)
+        __builtin_prefetch(reinterpret_cast<const char*>(s_.moments + later) + at, 1);
     }
 
     const Lanes& point_of(int k, int q) const { return p_[number_of[k][q]]; }
@@ -118,7 +123,7 @@ struct CurvedStrains {
     }
 
     const CurvedStrains& s_;
-    Lanes p_[6];
+    Lanes p_[6];  // distances of points, times inverse_sum
   };
 };
 
@@ -136,8 +141,8 @@ StressSums curved_stress_sweep(const System& s, Index k, const Tensor* F, const 
              last = std::lower_bound(first, c.unresolved.end(), tile.end);
   const CurvedStrains source{c.points.data() + tile.begin,
                              c.rows.inverse_sum.data() + tile.begin,
-                             memory.H.data() + tile.begin,
                              memory.weighted.data() + tile.begin,
+                             memory.moments.data() + tile.begin,
                              tile.begin,
                              {first, last},
                              memory.unresolved.data() + (first - c.unresolved.begin())};

@@ -55,11 +55,7 @@ void Forces::strain(State& state, const ExternalAction& action) {
   const System& s = system_;
   if (!s.viscosity.empty()) std::swap(F_, viscous_.F_previous);
   fill_boundary_nodes(s, action.walls, state.x.data());
-  parallel::for_tasks(s.tiles.size(), [&](std::int64_t tile) {
-    const StressIntegration::Scratches::Lease scratch(scratches_);
-    strain_sweep(s, static_cast<Index>(tile), state.x.data(), F_.data(), *scratch);
-  });
-  integration_->complete_strain(state.x.data(), F_.data());
+  integration_->find_strain(state.x.data(), F_.data());
   add_boundary_strain(s, state.x.data(), F_.data());
 }
 

@@ -5,16 +5,14 @@
 namespace tessera {
 
 CurvatureScratch::CurvatureScratch(const Tiles& tiles)
-    : nodes(static_cast<std::size_t>(9 * tiles.most_nodes)),
-      centroid(static_cast<std::size_t>(tiles.most_nodes)),
-      moments(static_cast<std::size_t>(tiles.most_particles)),
-      T(static_cast<std::size_t>(tiles.most_particles)) {}
+    : nodes(static_cast<std::size_t>(9 * tiles.most_nodes)), force(static_cast<std::size_t>(tiles.most_nodes)) {}
 
-TESSERA_KERNEL void point_strain_sweep(const Symmetric3* points, Index begin, Index end, const Hessian* H,
-                                       ThreeTensors* E) {
+TESSERA_KERNEL void point_strain_sweep(const Symmetric3* points, const double* inverse_sum, Index begin, Index end,
+                                       const Hessian* weighted, ThreeTensors* E) {
   for (Index a = begin; a < end; ++a) {
     Double4 h[derivatives];
-    put_vectors(H[a], h);
+    put_vectors(weighted[a], h);
+    for (Double4& v : h) v *= inverse_sum[a];
     const Mat3 p = to_mat3(points[a]);
     for (int q = 0; q < 3; ++q)
       E[a].k[q] = {p(0, q) * h[0] + p(1, q) * h[1] + p(2, q) * h[2], p(0, q) * h[1] + p(1, q) * h[3] + p(2, q) * h[4],

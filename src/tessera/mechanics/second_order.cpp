@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tessera/mechanics/cell_sweeps.hpp"
+#include "tessera/mechanics/curvature_nodes.hpp"
 #include "tessera/mechanics/system.hpp"
 #include "tessera/parallel/parallel.hpp"
 
@@ -36,35 +37,17 @@ void transpose_gradients(SecondOrderSystem& s) {
   s.returned = group_by_used_row(std::move(targets), s.receivers);
 }
 
-void transpose_faces(SecondOrderSystem& s) {
-  std::vector<RowItem<SecondOrderSystem::FaceShare>> targets;
-  for (Index k = 0; k < s.extrapolated.rows(); ++k)
-    for (const FaceTerm& t : s.extrapolated.row(k)) targets.push_back({t.particle, {k, t.weight}});
-  s.face_shares = group_by_used_row(std::move(targets), s.extrapolating);
-}
-
-/// Adds the extrapolated faces, times the sign, to F of their owners.
-void add_extrapolated_strain(const System& s, double sign, const Double4* x, Tensor* F) {
-  const SecondOrderSystem& c = *s.second_order;
-  parallel::for_each(static_cast<std::int64_t>(s.owners.size()), [&](std::int64_t i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Index a = s.owners[k];
-    Columns sum{};
-    for (Index f = s.first_node[k]; f < s.first_node[k + 1]; ++f) {
-      Double4 way{};
-      for (const FaceTerm& t : c.extrapolated.row(f)) way += t.weight * (x[t.particle] - x[a]);
-      add_outer(sum, way, c.held[static_cast<std::size_t>(f)].area);
-    }
-    F[a] = to_tensor(to_kernel(F[a]) + (sign / s.d.volume[static_cast<std::size_t>(a)]) * sum);
-  });
-}
-
-/// Calls body(surface) for the surfaces of all cells at free boundaries, one for each cell.
-template <class Body>
-void for_all_surfaces(const System& s, Body&& body) {
+/// Calls body(surface) for the surfaces of all cells at free boundaries, one for each cell, and ahead(particle) for
+/// what comes later.
+template <class Body, class Ahead>
+void for_all_surfaces(const System& s, Body&& body, Ahead&& ahead) {
   const std::vector<CurvedSurface>& surfaces = s.second_order->surfaces;
-  parallel::for_each(static_cast<std::int64_t>(surfaces.size()),
-                     [&](std::int64_t k) { body(surfaces[static_cast<std::size_t>(k)]); });
+  const std::size_t last = surfaces.empty() ? 0 : surfaces.size() - 1;
+  parallel::for_each(static_cast<std::int64_t>(surfaces.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    ahead(surfaces[std::min(k + lookahead, last)].particle);
+    body(surfaces[k]);
+  });
 }
 
 template <class Body>
@@ -75,25 +58,28 @@ void for_all_tiles(const System& s, const SecondOrderMemory& memory, Body&& body
   });
 }
 
-void add_surface_strain(const System& s, const Hessian* H, Tensor* F) {
-  for_all_surfaces(s, [&](const CurvedSurface& c) {
-    Tensor& F_a = F[c.particle];
-    const double inverse_volume = 1.0 / s.d.volume[static_cast<std::size_t>(c.particle)];
-    for (std::size_t r = 0; r < 6; ++r)
-      for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t i = 0; i < 3; ++i)
-          F_a.m[3 * j + i] += inverse_volume * H[c.particle].h[3 * r + i] * c.area_moment[r][static_cast<int>(j)];
+/// Cells that use means have them from now on.
+void take_sums(const SecondOrderSystem& s, SecondOrderMemory& memory) {
+  parallel::for_each(static_cast<std::int64_t>(s.averaged.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    fetch_all(memory.weighted.data() + s.averaged[std::min(k + lookahead, s.averaged.size() - 1)]);
+    memory.weighted[static_cast<std::size_t>(s.averaged[k])] = memory.sums[k];
   });
 }
 
-void add_surface_moments(const System& s, const Tensor* T, Hessian* G) {
-  for_all_surfaces(s, [&](const CurvedSurface& c) {
-    const double share = s.second_order->rows.inverse_sum[static_cast<std::size_t>(c.particle)];
-    for (std::size_t r = 0; r < 6; ++r) {
-      const Double4 force = share * apply(to_kernel(T[c.particle]), c.area_moment[r]);
-      for (std::size_t i = 0; i < 3; ++i) G[c.particle].h[3 * r + i] += force[static_cast<int>(i)];
-    }
-  });
+void add_surface_strain(const System& s, const Hessian* weighted, Tensor* F) {
+  for_all_surfaces(
+      s,
+      [&](const CurvedSurface& c) {
+        Tensor& F_a = F[c.particle];
+        const auto a = static_cast<std::size_t>(c.particle);
+        const double share = s.second_order->rows.inverse_sum[a] / s.d.volume[a];
+        for (std::size_t r = 0; r < 6; ++r)
+          for (std::size_t j = 0; j < 3; ++j)
+            for (std::size_t i = 0; i < 3; ++i)
+              F_a.m[3 * j + i] += share * weighted[c.particle].h[3 * r + i] * c.area_moment[r][static_cast<int>(j)];
+      },
+      [&](Index later) { fetch(F + later), fetch_all(weighted + later); });
 }
 
 }  // namespace
@@ -113,10 +99,9 @@ SecondOrderSystem second_order_system(const Discretization& d, const Tiles& tile
     add_gradient_row(d, a, gradients.to_points[static_cast<std::size_t>(a)], s.gradients);
   }
   transpose_gradients(s);
+  for (Index a = 0; a < d.particles(); ++a)
+    if (d.second_order->derivatives.averaged[static_cast<std::size_t>(a)]) s.averaged.push_back(a);
   s.surfaces = d.second_order->surfaces;
-  s.held = d.second_order->held;
-  s.extrapolated = d.second_order->extrapolated;
-  transpose_faces(s);
   return s;
 }
 
@@ -125,24 +110,22 @@ SecondOrderMemory::SecondOrderMemory(const System& s)
   if (!s.second_order) return;
   const auto particles = static_cast<std::size_t>(s.particles());
   weighted.resize(particles);
-  H.resize(particles);
+  sums.resize(static_cast<std::size_t>(s.second_order->rows.start.back().averaged));
+  moments.resize(particles);
   unresolved.resize(s.second_order->unresolved.size());
   if (s.average) points.resize(particles);
   T.resize(particles);
-  T_first.resize(particles);
-  rim_energies.resize(s.tiles.rim.size());
 }
 
-void add_curvature_strain(const System& s, const Double4* x, SecondOrderMemory& memory, Tensor* F) {
-  add_extrapolated_strain(s, 1.0, x, F);
+void find_strain(const System& s, const Double4* x, SecondOrderMemory& memory, Tensor* F) {
   for_all_tiles(s, memory, [&](Index tile, CurvatureScratch& scratch) {
-    hessian_sweep(s, tile, F, scratch, memory.weighted.data());
+    derivative_sweep(s, tile, x, scratch, F, memory.weighted.data());
   });
   for_all_tiles(s, memory, [&](Index tile, CurvatureScratch& scratch) {
-    curvature_strain_sweep(s, tile, memory.weighted.data(), scratch, F, memory.H.data());
+    face_sweep(s, tile, memory.weighted.data(), scratch, F, memory.sums.data());
   });
-  add_surface_strain(s, memory.H.data(), F);
-  add_extrapolated_strain(s, -1.0, x, F);
+  take_sums(*s.second_order, memory);
+  add_surface_strain(s, memory.weighted.data(), F);
 }
 
 void find_unresolved_strains(const SecondOrderSystem& s, const Tensor* F, SecondOrderMemory& memory) {
@@ -158,8 +141,8 @@ void find_unresolved_strains(const SecondOrderSystem& s, const Tensor* F, Second
 
 void find_point_strains(const SecondOrderSystem& s, SecondOrderMemory& memory) {
   parallel::for_ranges(0, static_cast<std::int64_t>(s.points.size()), [&](std::int64_t begin, std::int64_t end) {
-    point_strain_sweep(s.points.data(), static_cast<Index>(begin), static_cast<Index>(end), memory.H.data(),
-                       memory.points.data());
+    point_strain_sweep(s.points.data(), s.rows.inverse_sum.data(), static_cast<Index>(begin), static_cast<Index>(end),
+                       memory.weighted.data(), memory.points.data());
   });
   for (std::size_t k = 0; k < s.unresolved.size(); ++k)
     memory.points[static_cast<std::size_t>(s.unresolved[k])] = memory.unresolved[k];
@@ -168,7 +151,7 @@ void find_point_strains(const SecondOrderSystem& s, SecondOrderMemory& memory) {
 void take_point_moments(const SecondOrderSystem& s, SecondOrderMemory& memory) {
   parallel::for_ranges(0, static_cast<std::int64_t>(s.points.size()), [&](std::int64_t begin, std::int64_t end) {
     point_moment_sweep(s.points.data(), s.rows.inverse_sum.data(), static_cast<Index>(begin), static_cast<Index>(end),
-                       memory.points.data(), memory.weighted.data());
+                       memory.points.data(), memory.moments.data());
   });
   for (std::size_t k = 0; k < s.unresolved.size(); ++k)
     memory.unresolved[k] = memory.points[static_cast<std::size_t>(s.unresolved[k])];
@@ -186,33 +169,23 @@ void return_gradients(const SecondOrderSystem& s, const double* volume, SecondOr
   });
 }
 
-void return_curvature(const System& s, SecondOrderMemory& memory) {
-  add_surface_moments(s, memory.T.data(), memory.weighted.data());
-  for_all_tiles(s, memory, [&](Index tile, CurvatureScratch& scratch) {
-    curvature_moment_sweep(s, tile, memory.T.data(), memory.weighted.data(), scratch, memory.T_first.data(),
-                           memory.rim_energies.data());
-  });
+void add_surface_moments(const System& s, SecondOrderMemory& memory) {
+  for_all_surfaces(
+      s,
+      [&](const CurvedSurface& c) {
+        const auto a = static_cast<std::size_t>(c.particle);
+        const double share = s.second_order->rows.inverse_sum[a];
+        for (std::size_t r = 0; r < 6; ++r) {
+          const Double4 force = share * apply(to_kernel(memory.T[a]), c.area_moment[r]);
+          for (std::size_t i = 0; i < 3; ++i) memory.moments[a].h[3 * r + i] += force[static_cast<int>(i)];
+        }
+      },
+      [&](Index later) { fetch(memory.T.data() + later), fetch_all(memory.moments.data() + later); });
 }
 
-void recall_first(const System& s, Index tile, SecondOrderMemory& memory, Columns* T) {
-  const Tile& t = s.tiles.tiles[static_cast<std::size_t>(tile)];
-  complete_stresses(s, tile, memory.T_first.data(), memory.rim_energies.data(), T);
-  for (Index k = t.first_owner; k < s.tiles.end_of(tile).first_owner; ++k) {
-    const Index a = s.owners[static_cast<std::size_t>(k)];
-    memory.T_first[static_cast<std::size_t>(a)] = to_tensor(T[a - t.begin]);
-  }
-}
-
-void add_extrapolated_forces(const SecondOrderSystem& s, const SecondOrderMemory& memory, Double4* f) {
-  parallel::for_each(static_cast<std::int64_t>(s.extrapolating.size()), [&](std::int64_t i) {
-    Double4 sum{};
-    for (const SecondOrderSystem::FaceShare& t : s.face_shares.row(static_cast<Index>(i))) {
-      const HeldFace& face = s.held[static_cast<std::size_t>(t.face)];
-      const auto a = static_cast<std::size_t>(face.owner);
-      sum += t.weight * apply(to_kernel(memory.T_first[a]) - to_kernel(memory.T[a]), face.area);
-    }
-    f[s.extrapolating[static_cast<std::size_t>(i)]] -= sum;
-  });
+void add_forces(const System& s, Index tile, const SecondOrderMemory& memory, Double4* f, Double4* rim_f) {
+  const parallel::Workspaces<CurvatureScratch>::Lease scratch(memory.scratch);
+  derivative_force_sweep(s, tile, memory.T.data(), memory.moments.data(), *scratch, f, rim_f);
 }
 
 }  // namespace tessera

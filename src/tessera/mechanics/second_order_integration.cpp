@@ -9,25 +9,25 @@ namespace tessera {
 namespace {
 
 /// Second derivatives of the motion put faces into their places and say how F varies within a cell (theory, section
-/// 12). They act back through every stress, so all must be known before any acts.
+/// 12). They act back through every stress, so all must be known before any acts on particles.
 class SecondOrderIntegration : public StressIntegration {
  public:
   SecondOrderIntegration(const System& s, Scratches& scratches) : StressIntegration(s, scratches), curved_(s) {}
 
   std::unique_ptr<StressIntegration> apart() const override {
     auto other = second_order_integration(s_, scratches_);
-    static_cast<SecondOrderIntegration&>(*other).curved_.H = curved_.H;
+    static_cast<SecondOrderIntegration&>(*other).curved_.weighted = curved_.weighted;
     return other;
   }
 
-  void complete_strain(const Double4* x, Tensor* F) override { add_curvature_strain(s_, x, curved_, F); }
+  void find_strain(const Double4* x, Tensor* F) override { tessera::find_strain(s_, x, curved_, F); }
 
   StressSums gather(const StressTask& task) override {
     StressSums sums = prepare_points(task);
     sums +=
         sum_tiles(s_, scratches_, [&](Index tile, TileScratch& scratch) { return gather_tile(task, tile, scratch); });
     return_gradients(*s_.second_order, s_.d.volume.data(), curved_);
-    return_curvature(s_, curved_);
+    add_surface_moments(s_, curved_);
     return sums;
   }
 
@@ -40,11 +40,9 @@ class SecondOrderIntegration : public StressIntegration {
     return {};
   }
 
-  void turn_to_particles(Index tile, TileScratch& scratch) override {
-    recall_first(s_, tile, curved_, scratch.T.data());
+  void act(Index tile, const TileScratch& /*scratch*/, Double4* f, Double4* rim_f) const override {
+    add_forces(s_, tile, curved_, f, rim_f);
   }
-
-  void add_forces(Double4* f) const override { add_extrapolated_forces(*s_.second_order, curved_, f); }
 
  protected:
   /// What must be known of all points before the stresses of any.

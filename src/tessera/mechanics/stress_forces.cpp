@@ -46,14 +46,12 @@ StressSums StressForces::find(StressIntegration& integration, const StressTask& 
                               StressIntegration::Scratches& scratches, std::span<Vec3> reactions) {
   StressSums sums = integration.gather(task);
   sums += sum_tiles(s_, scratches, [&](Index tile, TileScratch& scratch) {
-    if (task.bonds.f == nullptr) read_gradient_vectors(s_, tile, s_.tiles.B);  // otherwise bonds have
+    if (task.bonds.f == nullptr && !s_.tiles.B.empty()) read_gradient_vectors(s_, tile, s_.tiles.B);  // else bonds have
     const StressSums of_tile = integration.stresses(task, tile, scratch);
     act_on_nodes(tile, scratch);
-    integration.turn_to_particles(tile, scratch);
-    act_on_particles(tile, scratch);
+    act_on_particles(integration, tile, scratch);
     return of_tile;
   });
-  integration.add_forces(f_.data());
   drain(reactions);
   return sums;
 }
@@ -66,11 +64,11 @@ void StressForces::act_on_nodes(Index tile, const TileScratch& scratch) {
   });
 }
 
-void StressForces::act_on_particles(Index tile, TileScratch& scratch) {
+void StressForces::act_on_particles(const StressIntegration& integration, Index tile, TileScratch& scratch) {
   if (split_ && !s_.d.direct)
     for (std::size_t a = 0; a < static_cast<std::size_t>(tile_of(s_, tile).size()); ++a)
       scratch.T[a] = scratch.P[a] + scratch.T[a];
-  force_sweep(s_, tile, scratch.T.data(), s_.tiles.B.data(), s_.d.B_aa.data(), f_.data(), rim_f_.data());
+  integration.act(tile, scratch, f_.data(), rim_f_.data());
   if (s_.d.direct)
     force_sweep(s_, tile, scratch.P.data(), s_.tiles.direct_B.data(), s_.d.direct->B_aa.data(), f_.data(),
                 rim_f_direct_.data());

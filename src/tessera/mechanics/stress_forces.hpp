@@ -31,7 +31,7 @@ class StressForces {
 
  private:
   void act_on_nodes(Index tile, const TileScratch& scratch);
-  void act_on_particles(Index tile, TileScratch& scratch);
+  void act_on_particles(const StressIntegration& integration, Index tile, TileScratch& scratch);
   void drain(std::span<Vec3> reactions);
 
   const System& s_;

@@ -13,6 +13,17 @@ std::unique_ptr<StressIntegration> make_integration(const System& s, StressInteg
   return nodal_integration(s, scratches);
 }
 
+void StressIntegration::find_strain(const Double4* x, Tensor* F) {
+  parallel::for_tasks(s_.tiles.size(), [&](std::int64_t tile) {
+    const Scratches::Lease scratch(scratches_);
+    strain_sweep(s_, static_cast<Index>(tile), x, F, *scratch);
+  });
+}
+
+void StressIntegration::act(Index tile, const TileScratch& scratch, Double4* f, Double4* rim_f) const {
+  force_sweep(s_, tile, scratch.T.data(), s_.tiles.B.data(), s_.d.B_aa.data(), f, rim_f);
+}
+
 double add_tile_bonds(const System& s, Index tile, const StressTask& task, TileScratch& scratch) {
   if (task.bonds.f != nullptr) return contact_sweep(s, tile, task.x, task.F, task.bonds.f, scratch);
   std::fill(scratch.T.begin(), scratch.T.end(), Columns{});

@@ -26,9 +26,10 @@ struct StressTask {
   CellReport report{};
 };
 
-/// How the strain energy is integrated over the cells, which is what turns deformations into stresses. Stresses come in
-/// two passes over the tiles: `gather` does what neighbours must know before theirs are complete, `stresses` completes
-/// those of one tile. An object keeps what lies between the two.
+/// How the strain energy is integrated over the cells: what deformations follow from positions, stresses from
+/// deformations, and forces from stresses. Stresses come in two passes over the tiles: `gather` does what neighbours
+/// must know before theirs are complete, `stresses` completes those of one tile. An object keeps what lies between the
+/// two.
 class StressIntegration {
  public:
   using Scratches = parallel::Workspaces<TileScratch>;
@@ -41,17 +42,15 @@ class StressIntegration {
   /// Another one at the same deformation, with memory of its own: what it does leaves this one alone.
   virtual std::unique_ptr<StressIntegration> apart() const = 0;
 
-  /// Adds to F what bonds between particles do not see, when they have done theirs and boundary nodes have not.
-  virtual void complete_strain(const Double4* /*x*/, Tensor* /*F*/) {}
+  /// Sets F, but for what boundary nodes do.
+  virtual void find_strain(const Double4* x, Tensor* F);
   /// The first pass, when F is complete.
   virtual StressSums gather(const StressTask& /*task*/) { return {}; }
   /// The second: the stresses by which a tile's own particles act on boundary nodes, in T and, where the scratch has
   /// room for it, the elastic and viscous part in P.
   virtual StressSums stresses(const StressTask& task, Index tile, TileScratch& scratch) = 0;
-  /// Turns T into the stresses by which they act on particles.
-  virtual void turn_to_particles(Index /*tile*/, TileScratch& /*scratch*/) {}
-  /// Adds forces that no stress of a tile gives, when all tiles have had their second pass.
-  virtual void add_forces(Double4* /*f*/) const {}
+  /// Adds the forces of T on the tile's own particles to `f`, and sets those on its rim, `rim_f`.
+  virtual void act(Index tile, const TileScratch& scratch, Double4* f, Double4* rim_f) const;
 
   /// The deformation that the law sees at particle a.
   virtual Mat3 law_deformation(std::size_t /*a*/, const Tensor& F) const { return to_mat3(F); }

@@ -43,12 +43,19 @@ Offset slots_of(const Discretization& d, std::span<const Index> sorted) {
   return slots;
 }
 
+/// Particles beyond the bonds that second derivatives follow.
+std::span<const Index> far_of(const Discretization& d, Index a) {
+  if (!d.second_order) return {};
+  return d.second_order->derivatives.far.row(a);
+}
+
 /// The number of particles from a on, at most `wanted`, that can be numbered together, with rims that at worst hold a
-/// particle a slot; and their slots.
+/// particle a slot and all that are far; and how many those are.
 std::pair<Index, Offset> next_window(const Discretization& d, Index a, Index wanted, Offset numbers_left) {
   for (Index size = wanted; size > 0; size /= 2) {
-    const Offset slots = slots_of(d, sorted_window(d, a, a + size));
-    if (size + slots <= numbers_left) return {size, slots};
+    Offset most = slots_of(d, sorted_window(d, a, a + size));
+    for (Index b = a; b < a + size; ++b) most += static_cast<Offset>(far_of(d, b).size());
+    if (size + most <= numbers_left) return {size, most};
   }
   return {0, 0};
 }
@@ -64,9 +71,9 @@ std::vector<Tile> cut_into_tiles(const Discretization& d, const std::vector<Mate
       Offset numbers_left = most_local;
       for (Index wanted = window; wanted == window && a < std::min(r.end, tile.begin + size);) {
         wanted = std::min({window, r.end - a, tile.begin + size - a});
-        const auto [taken, slots] = next_window(d, a, wanted, numbers_left);
+        const auto [taken, most] = next_window(d, a, wanted, numbers_left);
         a += taken;
-        numbers_left -= taken + slots;
+        numbers_left -= taken + most;
         if (taken < window) break;
       }
       if (a == tile.begin)
@@ -91,10 +98,13 @@ std::vector<Index> order_of(const Discretization& d, const Tile& tile) {
 
 std::vector<Index> rim_of(const Discretization& d, const Tile& tile) {
   std::vector<Index> rim;
-  for (Offset i = d.bonds.begin(tile.begin); i < d.bonds.end(tile.end - 1); ++i) {
-    const Index b = d.bonds.neighbour[static_cast<std::size_t>(i)];
+  const auto add = [&](Index b) {
     if (b < tile.begin || b >= tile.end) rim.push_back(b);
-  }
+  };
+  for (Offset i = d.bonds.begin(tile.begin); i < d.bonds.end(tile.end - 1); ++i)
+    add(d.bonds.neighbour[static_cast<std::size_t>(i)]);
+  for (Index a = tile.begin; a < tile.end; ++a)
+    for (const Index b : far_of(d, a)) add(b);
   std::sort(rim.begin(), rim.end());
   rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
   return rim;
@@ -135,8 +145,9 @@ void place(Tiles& t, const Discretization& d, const std::vector<TilePlan>& plans
   t.length.resize(static_cast<std::size_t>(end.quad));
   t.neighbour.resize(static_cast<std::size_t>(end.slot));
   t.area_over_length.resize(static_cast<std::size_t>(end.slot));
-  t.B.resize(static_cast<std::size_t>(end.slot));
   if (d.direct) t.direct_B.resize(static_cast<std::size_t>(end.slot));
+  if (d.second_order) return;
+  t.B.resize(static_cast<std::size_t>(end.slot));
   t.incoming_count.resize(static_cast<std::size_t>(end.node));
   t.incoming.resize(static_cast<std::size_t>(end.incoming));
 }
@@ -154,7 +165,7 @@ class TileFiller {
         t_.length[static_cast<std::size_t>(tile_.quad) + k / 4] = static_cast<std::uint16_t>(bonds_of(d_, order_[k]));
     }
     for_each([&](std::size_t slot, Index a, Index i) { i >= 0 ? put_bond(slot, a, i) : put_padding(slot, a); });
-    turn_round();
+    if (!d_.second_order) turn_round();
   }
 
  private:
@@ -169,7 +180,7 @@ class TileFiller {
     const auto k = static_cast<std::size_t>(d_.bonds.begin(a) + i);
     t_.neighbour[slot] = local(d_.bonds.neighbour[k]);
     t_.area_over_length[slot] = d_.bonds.area_over_length[k];
-    t_.B[slot] = d_.bonds.B_ab[k];
+    if (!t_.B.empty()) t_.B[slot] = d_.bonds.B_ab[k];
     if (d_.direct)
       t_.direct_B[slot] = d_.direct->B_ba[static_cast<std::size_t>(d_.bonds.find(d_.bonds.neighbour[k], a))];
   }
@@ -179,7 +190,7 @@ class TileFiller {
     const bool alone = bonds_of(d_, a) == 0;
     t_.neighbour[slot] = local(alone ? other_than(a) : d_.bonds.neighbour[static_cast<std::size_t>(d_.bonds.begin(a))]);
     t_.area_over_length[slot] = 0.0;
-    t_.B[slot] = {};
+    if (!t_.B.empty()) t_.B[slot] = {};
     if (d_.direct) t_.direct_B[slot] = {};
   }
 

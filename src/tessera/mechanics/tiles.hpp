@@ -11,7 +11,8 @@
 namespace tessera {
 
 /// Consecutive particles of one material that are worked on together, and where their data begin in the arrays of
-/// Tiles. Particles of other tiles to which bonds lead are the tile's rim. Within a tile particles have local numbers:
+/// Tiles. Particles of other tiles to which bonds lead, or which second derivatives
+/// follow, are the tile's rim. Within a tile particles have local numbers:
 /// its own in order, then the rim.
 struct Tile {
   Index begin = 0;
@@ -41,10 +42,10 @@ struct Tiles {
   RawField<std::uint16_t> length;     // of the longest row of each quad
   RawField<std::uint16_t> neighbour;  // local number
   RawField<double> area_over_length;  // [m]
-  RawField<Vec3> B;                   // B_ab, [m2]
+  RawField<Vec3> B;                   // B_ab [m2]; empty in second order, where CurvatureRows have it
   RawField<Vec3> direct_B;            // of [V 42]: what P_a does to b by the bond a -> b; empty if that is B_ab
 
-  /// The bonds of a tile that lead to a local particle: one row each.
+  /// The bonds of a tile that lead to a local particle: one row each. Empty in second order.
   struct Incoming {
     std::uint16_t from;  // local number of a
     std::uint16_t slot;  // of a -> b, counted from the tile's first

@@ -2,8 +2,8 @@
 
 namespace tessera {
 
-TESSERA_KERNEL void curvature_strain_sweep(const System& s, Index k, const Hessian* weighted, CurvatureScratch& scratch,
-                                           Tensor* F, Hessian* mean) {
+TESSERA_KERNEL void face_sweep(const System& s, Index k, const Hessian* weighted, CurvatureScratch& scratch, Tensor* F,
+                               Hessian* sums) {
   struct Node {
     Double4 h[derivatives];  // of q H, the first three with a component of the position
   };
@@ -19,31 +19,33 @@ TESSERA_KERNEL void curvature_strain_sweep(const System& s, Index k, const Hessi
       [&](Index b) { fetch_all(weighted + b), fetch(X + b); });
   RowReader rows(s, k);
   const double* volume = s.d.volume.data() + rows.tile.begin;
-  const double* inverse_sum = s.second_order->rows.inverse_sum.data() + rows.tile.begin;
+  sums += RowReader::start(s.second_order->rows, k).averaged;
   const Double4 other_way{1.0, 1.0, 1.0, -1.0};
   for (Index row = 0; row < rows.tile.size(); ++row, rows.next()) {
     Node a = nodes[row];
+    if (rows.row->averaged) {
+      Double4 sum[derivatives];
+      unrolled<derivatives>([&](auto r) { sum[r] = a.h[r]; });
+      for (Index i = 0; i < rows.row->neighbours; ++i)
+        unrolled<derivatives>([&](auto r) { sum[r] += nodes[rows.neighbour[i].cell].h[r]; });
+      store_vectors(sum, (sums++)->h);
+    }
+    Double4 VF[3]{};
     unrolled<3>([&](auto j) { a.h[j] *= other_way; });
-    Double4 sum[derivatives]{}, VF[3]{};
     rows.for_each_neighbour(
-        [&](const CurvatureRows::Neighbour& n) {
+        [&](const CurvatureRows::Neighbour& n, const Vec3&) {
           const Node& b = nodes[n.cell];
           const CurvatureRows::FaceFactors& M = rows.M[n.face];
-          Double4 both[derivatives], c{};
+          Double4 both[derivatives], part[2]{};  // two sums, each of which waits for fewer others
           unrolled<derivatives>([&](auto r) {
             both[r] = a.h[r] + b.h[r];
-            sum[r] += both[r];
-            c += M[std::size_t{r}] * both[r];
+            part[r % 2] += M[std::size_t{r}] * both[r];
           });
+          const Double4 c = part[0] + part[1];
           unrolled<3>([&](auto j) { VF[j] += fourth(both[j]) * c; });
         },
         reinterpret_cast<const double*>(rows.next_M));
-    RowReader::fetch_result(mean + rows.tile.begin, row);
     RowReader::fetch_result(F + rows.tile.begin, row);
-
-    const double others = 1.0 - rows.row->neighbours;
-    unrolled<derivatives>([&](auto r) { sum[r] = inverse_sum[row] * (sum[r] + others * a.h[r]); });
-    store_vectors(sum, mean[rows.tile.begin + row].h);
     Tensor& F_a = F[rows.tile.begin + row];
     const Columns change{VF[0], VF[1], VF[2]};
     store(F_a, to_kernel(F_a) + (1.0 / volume[row]) * change);
