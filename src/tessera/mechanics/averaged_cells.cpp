@@ -37,9 +37,8 @@ inline void find_numbers(const CellTask& task, const Neighbours& source, double*
   Neighbours::Variation<Lanes> variation(source);
   for (Index q = 0; q < tile.quads(); q += CellGroup<Lanes>::quads) {
     const CellGroup<Lanes> group(task.s, tile, q);
-    Lanes9Of<Lanes> E[3];
-    variation.find(group, E);
-    const Lanes all = found(group, load_F(task.F + tile.begin, group), E);
+    const PointStrains<Lanes> strains = variation.find(group);
+    const Lanes all = found(group, load_F(task.F + tile.begin, group), strains.E);
     for (Index lane = 0; lane < group.count; ++lane) numbers[tile.begin + group.local[lane]] = all[lane];
   }
 }

@@ -13,10 +13,16 @@
 // varies in the cells is told by a Source, whose Variation<Lanes> has
 //
 //     group(system, tile, quad)                the cells that are taken at once from this quad on,
-//     find(group, E)                           the E_q of a group of cells,
+//     find(group)                              the E_q of a group of cells,
 //     take(group, volume, moment, stress)      what becomes of the derivatives by E_q; adds to the cells' own stress.
 
 namespace tessera {
+
+/// E_q, q = 1 to 3, of several cells.
+template <class Lanes>
+struct PointStrains {
+  Lanes9Of<Lanes> E[3];
+};
 
 /// Consecutive quads of a tile whose cells are taken at once. The last particle fills up what is left.
 template <class Lanes>
@@ -132,10 +138,9 @@ inline StressSums cells_of(const CellTask& task, const Law& law, const Source& s
   smallest_J += std::numeric_limits<double>::infinity();
   for (Index q = 0; q < tile.quads(); q += CellGroup<Lanes>::quads) {
     const CellGroup<Lanes> group = Source::template Variation<Lanes>::group(task.s, tile, q);
-    Lanes9Of<Lanes> E[3];
-    variation.find(group, E);
+    const PointStrains<Lanes> strains = variation.find(group);
     const Lanes9Of<Lanes> F = load_F(task.F_of_points() + tile.begin, group);
-    const CubatureStress<Lanes> c = point_stresses(source, task, law, group, F, E);
+    const CubatureStress<Lanes> c = point_stresses(source, task, law, group, F, strains.E);
     smallest_J = smallest_J < c.smallest_J ? smallest_J : c.smallest_J;
     not_finite += c.not_finite;
     Lanes9Of<Lanes> total = c.mean;

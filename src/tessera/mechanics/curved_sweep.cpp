@@ -28,7 +28,7 @@ struct CurvedStrains {
 
     static CellGroup<Lanes> group(const System& /*s*/, const Tile& tile, Index first) { return {tile, first}; }
 
-    inline void find(const CellGroup<Lanes>& group, Lanes9Of<Lanes> (&E)[3]) {
+    inline PointStrains<Lanes> find(const CellGroup<Lanes>& group) {
       fetch_later(group);
       const double *point[lanes_in<Lanes>], *row[lanes_in<Lanes>];
       for (Index lane = 0; lane < group.lanes; ++lane) {
@@ -43,22 +43,25 @@ struct CurvedStrains {
                           h12 = load_fours(row, 12), h14 = load_fours(row, 14);
       const Lanes h[18] = {h0.n0, h0.n1, h0.n2, h0.n3,  h4.n0,  h4.n1,  h4.n2,  h4.n3,  h8.n0,
                            h8.n1, h8.n2, h8.n3, h12.n0, h12.n1, h12.n2, h12.n3, h14.n2, h14.n3};
-      for (int q = 0; q < 3; ++q) {
+      const auto strain = [&](int q) {
         const auto component = [&](int i, int j) {
           return point_of(0, q) * h[3 * number_of[0][j] + i] + point_of(1, q) * h[3 * number_of[1][j] + i] +
                  point_of(2, q) * h[3 * number_of[2][j] + i];
         };
-        E[q] = {component(0, 0), component(0, 1), component(0, 2), component(1, 0), component(1, 1),
-                component(1, 2), component(2, 0), component(2, 1), component(2, 2)};
-      }
+        return Lanes9Of<Lanes>{component(0, 0), component(0, 1), component(0, 2), component(1, 0), component(1, 1),
+                               component(1, 2), component(2, 0), component(2, 1), component(2, 2)};
+      };
+      PointStrains<Lanes> strains{{strain(0), strain(1), strain(2)}};
       for_unresolved(group, [&](Index lane, const ThreeTensors& known) {
         for (int q = 0; q < 3; ++q) {
           const Columns& t = known.k[q];
-          E[q].xx[lane] = t.c0[0], E[q].xy[lane] = t.c1[0], E[q].xz[lane] = t.c2[0];
-          E[q].yx[lane] = t.c0[1], E[q].yy[lane] = t.c1[1], E[q].yz[lane] = t.c2[1];
-          E[q].zx[lane] = t.c0[2], E[q].zy[lane] = t.c1[2], E[q].zz[lane] = t.c2[2];
+          Lanes9Of<Lanes>& E = strains.E[q];
+          E.xx[lane] = t.c0[0], E.xy[lane] = t.c1[0], E.xz[lane] = t.c2[0];
+          E.yx[lane] = t.c0[1], E.yy[lane] = t.c1[1], E.yz[lane] = t.c2[1];
+          E.zx[lane] = t.c0[2], E.zy[lane] = t.c1[2], E.zz[lane] = t.c2[2];
         }
       });
+      return strains;
     }
 
     inline void take(const CellGroup<Lanes>& group, const Lanes& volume, const Lanes9Of<Lanes> (&Z)[3],

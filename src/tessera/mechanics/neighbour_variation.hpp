@@ -107,7 +107,7 @@ struct Neighbours {
       load_centroids_of_tile(source.s, source.tile, source.scratch.centroid.data());
     }
 
-    inline void find(const CellGroup<Lanes>& group, Lanes9Of<Lanes> (&E)[3]) {
+    inline PointStrains<Lanes> find(const CellGroup<Lanes>& group) {
       TensorRows sums[lanes_in<Lanes>];
       const double* row[lanes_in<Lanes>];
       for (Index q = 0; q < group.quads; ++q)
@@ -117,8 +117,10 @@ struct Neighbours {
       load_tensors<Lanes>(row, G);
       const Matrices<Lanes> A(to_points_, group);
       const Lanes two = Lanes{} + 2.0;
+      PointStrains<Lanes> strains;
       for (int q = 0; q < 3; ++q)
-        for (int k = 0; k < 3; ++k) add(E[q], two * A.m[k][q], G[k]);
+        for (int k = 0; k < 3; ++k) add(strains.E[q], two * A.m[k][q], G[k]);
+      return strains;
     }
 
     /// Keeps V dU/dG and adds what it does to F_a itself to the stress.
