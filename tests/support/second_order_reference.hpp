@@ -5,6 +5,7 @@
 #include <array>
 
 #include "support/consistent_reference.hpp"
+#include "support/quadratic_weights.hpp"
 #include "tessera/discretization/second_derivatives.hpp"
 
 namespace tessera::test {
@@ -17,7 +18,7 @@ struct ReferencePoint {
 
 /// The second-order consistent formulation as a few large sparse matrices: positions of faces c = C x + C_w w, second
 /// derivatives h = H x, deformation gradients F = S c, and the energy with its gradient by the chain rule through them.
-/// S_a and q_a are given; what they are is for other tests.
+/// Stencils, q_a and which cells use means are given; what they are is for other tests.
 class SecondOrderReference {
  public:
   using Vector = Eigen::VectorXd;
@@ -123,37 +124,24 @@ class SecondOrderReference {
     for (std::size_t r = 0; r < 6; ++r) to[b][r] += factor * w[r];
   }
 
-  /// H_a = S_a : G_a of the gradients that particles alone determine, and the weighted means of them.
+  /// H_a from the positions of its stencil, and what cells use: H_a itself, or the weighted mean with the neighbours'.
   void find_derivatives() {
-    VoronoiBody untied = body_;
-    untied.D.assign(body_.D.size(), {});
-    const ConsistentReference all(untied);
-    std::vector<std::map<std::size_t, Vec3>> F(n_);
-    for (std::size_t a = 0; a < n_; ++a)
-      for (const auto& [f, area] : all.faces_of[a])
-        for (const auto& [b, W] : all.faces[f].W) F[a][b] += (W(0, 0) / body_.cells.volume[a]) * area;
-    const std::vector<Vec3>& X_c = body_.cells.centroid;
     for (std::size_t a = 0; a < n_; ++a) {
       if (!resolved_[a]) continue;
-      const auto add_gradient = [&](std::size_t b, double factor, const Vec3& way) {
-        for (const auto& [c, B] : F[b]) {
-          std::array<double, 6> w{};
-          for (std::size_t r = 0; r < 6; ++r)
-            for (std::size_t j = 0; j < 3; ++j)
-              for (std::size_t k = 0; k < 3; ++k)
-                w[r] += given_.map[a][9 * r + 3 * j + k] * B[static_cast<int>(j)] * way[static_cast<int>(k)];
-          add(H_[a], c, factor, w);
-        }
-      };
-      for (const std::size_t b : linear.near[a]) {
-        add_gradient(b, 1.0, X_c[b] - X_c[a]);
-        add_gradient(a, -1.0, X_c[b] - X_c[a]);
+      std::vector<std::size_t> stencil(linear.near[a].begin(), linear.near[a].end());
+      for (const Index b : given_.far.row(static_cast<Index>(a))) stencil.push_back(static_cast<std::size_t>(b));
+      std::vector<Vec3> branches;
+      for (const std::size_t b : stencil) branches.push_back(body_.X[b] - body_.X[a]);
+      const std::vector<std::array<double, 6>> w = quadratic_weights(branches);
+      for (std::size_t i = 0; i < w.size(); ++i) {
+        add(H_[a], stencil[i], 1.0, w[i]);
+        add(H_[a], a, -1.0, w[i]);
       }
     }
     for (std::size_t a = 0; a < n_; ++a) {
       if (!resolved_[a]) continue;
-      std::set<std::size_t> cells = linear.near[a];
-      cells.insert(a);
+      std::set<std::size_t> cells{a};
+      if (given_.averaged[a]) cells.insert(linear.near[a].begin(), linear.near[a].end());
       double sum = 0.0;
       for (const std::size_t b : cells) sum += given_.weight[b];
       for (const std::size_t b : cells)
@@ -299,7 +287,7 @@ class SecondOrderReference {
   const VoronoiBody& body_;
   Material m_;
   std::size_t n_;
-  std::vector<Weights> H_, W_;  // second derivatives and their means
+  std::vector<Weights> H_, W_;  // second derivatives, and those that cells use
   const SecondDerivatives& given_;
   std::vector<char> resolved_;
 };

@@ -90,6 +90,17 @@ TEST(BenchReport, TableHasTheMethodAndItsStages) {
   EXPECT_NE(text.find("    2.50     unknown\n"), std::string::npos) << text;
 }
 
+/// The stages of second order are those of other methods, in the order in which they come.
+TEST(BenchReport, TableHasTheStagesOfSecondOrder) {
+  BenchReport r = report();
+  r.rows[0].integration = "second-order";
+  r.rows[0].stages = {{"strain", 4.0}, {"contact", 1.0}, {"stress", 2.0}, {"force", 2.0},
+                      {"rims", 0.5},   {"kick", 0.5},    {"step", 10.0}};
+  const std::string text = to_table(r);
+  EXPECT_NE(text.find("  strain  contact  stress   force    rims    kick\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("     40%      10%     20%     20%      5%      5%\n"), std::string::npos) << text;
+}
+
 TEST(BenchReport, TableSaysWhatIsExtrapolated) {
   EXPECT_NE(to_table(report()).find("42 s (extrapolated)"), std::string::npos);
   BenchReport r = report();

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <tuple>
 
 #include "support/second_order_reference.hpp"
@@ -15,6 +16,7 @@ namespace {
 struct Body {
   std::string name;
   VoronoiBody body;
+  bool has_unresolved = false;
 };
 
 Mat3 mixed_on_l_block(const Vec3& C, const Vec3& N) {
@@ -24,12 +26,36 @@ Mat3 mixed_on_l_block(const Vec3& C, const Vec3& N) {
   return {};
 }
 
-/// The last one has two layers of cells, where quadratics cannot be resolved.
+/// Two layers of cells, where quadratics are not resolved, over one half of a slab and three over the other.
+VoronoiBody two_and_three_layers(int length, int width, const Constrain& constrain) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  VoronoiBody body;
+  for (int i = 0; i < length; ++i)
+    for (int j = 0; j < width; ++j) {
+      const int layers = 2 * i < length ? 2 : 3;
+      for (int k = 0; k < layers; ++k)
+        body.X.push_back({i + 0.5 + 0.2 * uniform(random), j + 0.5 + 0.2 * uniform(random),
+                          3.0 * (k + 0.5) / layers + 0.02 * uniform(random)});
+    }
+  body.cells = voronoi_cells(body.X, box({1.0 * length, 1.0 * width, 3.0}), Moments::second_of_faces);
+  for (const BoundaryFace& f : body.cells.boundary) body.D.push_back(constrain(f.centroid, normalized(f.area)));
+  return body;
+}
+
+/// There are resolved cells, and unresolved ones or not.
+void expect_unresolved(const Discretization& d, bool some) {
+  const std::vector<char>& resolved = d.second_order->derivatives.resolved;
+  const auto unresolved = static_cast<Index>(std::count(resolved.begin(), resolved.end(), 0));
+  EXPECT_EQ(unresolved > 0, some);
+  EXPECT_LT(unresolved, d.particles());
+}
+
 std::vector<Body> bodies() {
   return {{"free box", voronoi_body(box({1, 1, 1}), {4, 4, 4}, 0.25, 9, nothing)},
           {"mixed box", voronoi_body(box({1, 1, 1}), {4, 3, 4}, 0.25, 9, mixed)},
-          {"L-block", voronoi_body(l_block(), {4, 7, 3}, 0.2, 4, mixed_on_l_block)},
-          {"two layers", voronoi_body(box({1, 1, 0.5}), {4, 4, 2}, 0.2, 3, nothing)}};
+          {"L-block with legs two cells wide", voronoi_body(l_block(), {4, 7, 3}, 0.2, 4, mixed_on_l_block), true},
+          {"two and three layers", two_and_three_layers(6, 3, mixed_on_l_block), true}};
 }
 
 Vec3 to_vec3(const SecondOrderReference::Vector& v, std::size_t a) {
@@ -44,6 +70,7 @@ TEST(SecondOrderForces, AreThoseOfTheReference) {
   for (const Body& b : bodies()) {
     SCOPED_TRACE(b.name);
     const Discretization d = discretize(Method::consistent, b.body, Integration::second_order);
+    expect_unresolved(d, b.has_unresolved);
     const SecondOrderReference reference(b.body, m, d.second_order->derivatives);
     const auto motion = [](const Vec3& X) { return wavy((1.0 / 6.0) * X) * 6.0; };
     const std::vector<Vec3> x = noisy(b.body.X, motion, 0.03 * std::cbrt(b.body.cells.volume[0]));
@@ -161,14 +188,16 @@ TEST(QuadraticMotion, IsExactInBodiesFromSurfaces) {
 /// Forces of many particles, some of them in unresolved cells: the same bits for any number of threads.
 TEST(SecondOrderForces, HaveTheSameBitsForAnyNumberOfThreads) {
   const int before = parallel::threads();
-  const System s = system_of(discretize(Method::consistent, voronoi_body(box({3, 1, 0.5}), {36, 12, 4}, 0.3, 2, mixed),
-                                        Integration::second_order),
-                             rubber(), 300);
-  const std::vector<Vec3> walls = walls_of(s, wavy);
+  const Discretization d =
+      discretize(Method::consistent, two_and_three_layers(40, 15, mixed_on_l_block), Integration::second_order);
+  expect_unresolved(d, true);
+  const System s = system_of(d, rubber(), 300);
+  const auto motion = [](const Vec3& X) { return 20.0 * wavy(0.05 * X); };
+  const std::vector<Vec3> walls = walls_of(s, motion);
   const auto evaluate = [&](int threads) {
     parallel::set_threads(threads);
     State state = reference_state(s);
-    move(state, s, wavy);
+    move(state, s, motion);
     Forces forces(s);
     forces.evaluate(state, {walls, {}, {}}, 0.0);
     return std::pair{to_vectors(forces.total()), forces.reactions()};
