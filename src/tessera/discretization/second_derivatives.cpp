@@ -22,6 +22,8 @@ constexpr double least_certainty = 0.25, most_depth = 2.0;
 // the nearest of theirs, as many as this.
 constexpr double enough = 6.0;
 constexpr std::size_t most_added = 12;
+// All other fits take the nearest of their neighbours' neighbours, as many as this.
+constexpr std::size_t widely = 34;
 // Particles whose distances differ by less than this fraction are taken together, so that lattices keep their symmetry.
 constexpr double equally_far = 1e-6;
 // The weight of a cell in means falls with this power of its deviation: the surest ones count.
@@ -51,10 +53,10 @@ class Fitter {
     find_far(d, a);
     if (place == CellPlace::inside)
       if (const Fitted fitted = few(); fitted.amplification <= enough) return fitted;
-    Fitted all = over(particles_.size() - near_);
-    all.averaged = place != CellPlace::near_boundary;
-    all.depth = std::min(depth(branches_, near_, extent_), most_depth);
-    return all;
+    Fitted wide = over(widely_added());
+    wide.averaged = place != CellPlace::near_boundary;
+    wide.depth = std::min(depth(branches_, near_, extent_), most_depth);
+    return wide;
   }
 
   /// Of the one that was fitted last, what the fit takes beyond the neighbours with a common face, ascending.
@@ -74,6 +76,12 @@ class Fitter {
       if (fitted.amplification <= enough) break;
     }
     return fitted;
+  }
+
+  std::size_t widely_added() const {
+    std::size_t added = std::min(widely, particles_.size() - near_);
+    while (added > 0 && belongs_to_next(near_ + added)) ++added;
+    return added;
   }
 
   bool belongs_to_next(std::size_t count) const {

@@ -117,16 +117,22 @@ class Fits {
     return sorted;
   }
 
+  /// Are the first n of the particles as far as the next one?
+  bool divides(std::size_t a, const std::vector<std::size_t>& more, std::size_t n) const {
+    return n > 0 && n < more.size() && distance(a, more[n]) < (1.0 + 1e-6) * distance(a, more[n - 1]);
+  }
+
   Fit best(std::size_t a) const {
     const std::vector<std::size_t> more = beyond(a);
     if (is_inside(a))
       for (std::size_t n = 0; n <= std::min<std::size_t>(12, more.size()); ++n) {
-        const bool divides = n > 0 && n < more.size() && distance(a, more[n]) < (1.0 + 1e-6) * distance(a, more[n - 1]);
-        if (divides) continue;
+        if (divides(a, more, n)) continue;
         const Fit fit = over(a, {more.begin(), more.begin() + static_cast<std::ptrdiff_t>(n)});
         if (fit.amplification <= 6.0) return fit;
       }
-    Fit fit = over(a, more);
+    std::size_t nearest = std::min<std::size_t>(34, more.size());
+    while (divides(a, more, nearest)) ++nearest;
+    Fit fit = over(a, {more.begin(), more.begin() + static_cast<std::ptrdiff_t>(nearest)});
     fit.is_mean = at_boundary_[a] || is_inside(a);
     fit.depth = std::min(2.0, depth_of(branches(a, stencil(a, more)), near_[a].size()));
     return fit;
