@@ -52,12 +52,8 @@ ResolvedInverse resolved_inverse(const Symmetric3& K) {
 template <class Take>
 void for_each_difference(const Discretization& d, Index a, Take&& take) {
   const std::vector<Vec3>& C = d.measure->centroid;
-  for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
-    const auto bond = static_cast<std::size_t>(i);
-    if (d.bonds.area_over_length[bond] == 0.0) continue;
-    const Index b = d.bonds.neighbour[bond];
-    take(b, C[static_cast<std::size_t>(b)] - C[static_cast<std::size_t>(a)]);
-  }
+  d.for_each_face_neighbour(
+      a, [&](Offset, Index b) { take(b, C[static_cast<std::size_t>(b)] - C[static_cast<std::size_t>(a)]); });
 }
 
 /// K_a^-1.

@@ -36,7 +36,7 @@ Vector6 factors() {
   return f;
 }
 
-/// Sums of products of the branches in units of their mean length.
+/// Sums of products of the branches in units of their root mean square.
 struct Normal {
   explicit Normal(std::span<const Vec3> branches) {
     double square = 0.0;
@@ -115,6 +115,13 @@ double deviation(const QuadraticFit& fit, std::span<const Vec3> branches) {
   return std::sqrt(variance + contract(own, own));
 }
 
+/// Its eigenvectors are the axes along which the branches extend.
+Matrix3d squares(std::span<const Vec3> branches) {
+  Matrix3d K = Matrix3d::Zero();
+  for (const Vec3& X : branches) K += to_eigen(X) * to_eigen(X).transpose();
+  return K;
+}
+
 /// The particle itself is one of those that are seen.
 double depth_along(std::span<const Vec3> branches, std::size_t near, const Eigen::Vector3d& n) {
   double s1 = 0.0, s2 = 0.0, s3 = 0.0, s4 = 0.0, near_square = 0.0;
@@ -133,17 +140,14 @@ double depth_along(std::span<const Vec3> branches, std::size_t near, const Eigen
 }  // namespace
 
 Extent extent(std::span<const Vec3> branches) {
-  Matrix3d K = Matrix3d::Zero();
-  for (const Vec3& X : branches) K += to_eigen(X) * to_eigen(X).transpose();
-  const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Matrix3d>(K, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(squares(branches), Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d values = eigen.eigenvalues();
   if (!(values(1) > flat_below * values(2))) return Extent::line;
   return values(0) > flat_below * values(2) ? Extent::space : Extent::plane;
 }
 
 double depth(std::span<const Vec3> branches, std::size_t near, Extent extent) {
-  Matrix3d K = Matrix3d::Zero();
-  for (const Vec3& X : branches) K += to_eigen(X) * to_eigen(X).transpose();
-  const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(K).eigenvectors();
+  const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(squares(branches)).eigenvectors();
   if (extent == Extent::plane) return depth_along(branches, near, axes.col(1));
   double least = depth_along(branches, near, axes.col(0));
   for (int k = 1; k < directions; ++k) {

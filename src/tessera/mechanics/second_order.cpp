@@ -17,13 +17,10 @@ using GradientTerm = SecondOrderSystem::GradientTerm;
 /// centroids.
 void add_gradient_row(const Discretization& d, Index a, const Mat3& to_points, Csr<GradientTerm>& rows) {
   const std::vector<Vec3>& C = d.measure->centroid;
-  for (Offset i = d.bonds.begin(a); i < d.bonds.end(a); ++i) {
-    const auto bond = static_cast<std::size_t>(i);
-    if (d.bonds.area_over_length[bond] == 0.0) continue;
-    const Index b = d.bonds.neighbour[bond];
+  d.for_each_face_neighbour(a, [&](Offset, Index b) {
     const Vec3 c = C[static_cast<std::size_t>(b)] - C[static_cast<std::size_t>(a)];
     rows.value.push_back({b, (1.0 / norm2(c)) * (transpose(to_points) * c)});
-  }
+  });
   rows.offset.push_back(static_cast<Offset>(rows.value.size()));
 }
 
