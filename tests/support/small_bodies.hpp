@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,10 @@ inline std::string name_of(Integration i) {
   }
   return "";
 }
+
+/// Cells along an edge of a small cube: second derivatives need four, the others do with three.
+inline int cells_along(Integration i) { return i == Integration::second_order ? 4 : 3; }
+inline std::array<int, 3> small_cube(Integration i) { return {cells_along(i), cells_along(i), cells_along(i)}; }
 
 /// What tests go through.
 struct Kind {
@@ -117,12 +123,21 @@ inline Discretization discretize(Method method, const VoronoiBody& body, Integra
   return d;
 }
 
+/// A test of second order must not be one of cell integration.
+inline void require_resolved(const Discretization& d) {
+  const std::vector<char>& resolved = d.second_order->derivatives.resolved;
+  if (std::count(resolved.begin(), resolved.end(), 1) == 0) throw std::logic_error("no second derivative is resolved");
+}
+
 /// A box or L-block discretized; for delaunay `constrain` acts on particles, with the normal zero.
 inline Discretization discretize(Method method, const Solid& solid, std::array<int, 3> counts, double jitter,
                                  std::uint64_t seed, const Constrain& constrain,
                                  Integration integration = Integration::nodal) {
-  if (method != Method::delaunay)
-    return discretize(method, voronoi_body(solid, counts, jitter, seed, constrain), integration);
+  if (method != Method::delaunay) {
+    Discretization d = discretize(method, voronoi_body(solid, counts, jitter, seed, constrain), integration);
+    if (integration == Integration::second_order) require_resolved(d);
+    return d;
+  }
   const TetrahedralMesh mesh = tetrahedra(solid, counts, jitter, seed);
   std::vector<ParticleConstraint> constraints;
   for (Index a = 0; a < static_cast<Index>(mesh.points.size()); ++a) {

@@ -227,7 +227,7 @@ class Part(unittest.TestCase):
         self.assertEqual(r.summary["boundary_faces"], 1263)
         self.assertAlmostEqual(last["bore.fy"], -load, delta=1e-4 * load)
         self.assertLess(max(abs(last["bore.fx"]), abs(last["bore.fz"])), 1e-4)
-        self.assertAlmostEqual(last["tip.y"] - 1.8e-3, -0.187e-3, delta=1e-6)
+        self.assertAlmostEqual(last["tip.y"] - 1.8e-3, -0.1906e-3, delta=1e-6)
         self.assertLess(r.summary["identities"]["volume"], 1e-12)
 
 

@@ -242,9 +242,9 @@ Discretization discretize_consistent(const Generators& X, const Cells& cells, st
     const FacePositions positions = face_positions(X, cells, faces, D);
     build_bonds(d, cells, faces, positions, D);
     if (order == FaceOrder::quadratic) {
+      d.measure = measure_of_cells(cells);
       CurvedFaces curved = curved_faces(d, cells, faces, positions, D);
       d.second_order = std::move(curved.second_order);
-      d.measure = measure_of_cells(cells);
       build_boundary(d, curved.boundary, cells, D);
       for (BoundaryNode& node : d.nodes)
         node.spread = face_spread(cells.boundary_second_moment[static_cast<std::size_t>(node.site)], norm(node.area));

@@ -24,7 +24,8 @@ struct CurvedFaces {
 /// [m4]).
 FaceSpread face_spread(const Symmetric3& second_moment, double area);
 
-/// `cells` must have the second moments of faces, `d` its bonds; `D` holds one projection per boundary face.
+/// `cells` must have the second moments of faces, `d` its bonds and the measure of its cells; `D` holds one projection
+/// per boundary face.
 CurvedFaces curved_faces(const Discretization& d, const Cells& cells, const Csr<FaceOfCell>& faces,
                          const FacePositions& positions, std::span<const Mat3> D);
 

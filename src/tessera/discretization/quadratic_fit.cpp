@@ -17,7 +17,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr double flat_below = 1e-12;
 // Ratio of pivots or eigenvalues below which positions do not determine all second derivatives.
 constexpr double undetermined = 1e-10;
-// In the plane of the two shortest axes of what is seen: so many directions are looked along.
+// So many directions are looked along, in the plane of the two axes across the fewest cells.
 constexpr int directions = 6;
 constexpr double pi = 3.14159265358979323846;
 
@@ -115,26 +115,39 @@ double deviation(const QuadraticFit& fit, std::span<const Vec3> branches) {
   return std::sqrt(variance + contract(own, own));
 }
 
-/// Its eigenvectors are the axes along which the branches extend.
+/// Sum of the squares of the branches.
 Matrix3d squares(std::span<const Vec3> branches) {
   Matrix3d K = Matrix3d::Zero();
   for (const Vec3& X : branches) K += to_eigen(X) * to_eigen(X).transpose();
   return K;
 }
 
+Matrix3d to_eigen(const Symmetric3& m) {
+  Matrix3d e;
+  e << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
+  return e;
+}
+
+/// Across the fewest cells first, conjugate to each other, each in units of the cell's width along it; the particle
+/// itself is one of those that are seen.
+Matrix3d axes_in_cells(std::span<const Vec3> branches, const Symmetric3& second_moment) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Vec3& X : branches) sum += to_eigen(X);
+  const Matrix3d K = squares(branches) - sum * sum.transpose() / static_cast<double>(branches.size() + 1);
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d>(K, 12.0 * to_eigen(second_moment)).eigenvectors();
+}
+
 /// The particle itself is one of those that are seen.
-double depth_along(std::span<const Vec3> branches, std::size_t near, const Eigen::Vector3d& n) {
-  double s1 = 0.0, s2 = 0.0, s3 = 0.0, s4 = 0.0, near_square = 0.0;
-  for (std::size_t i = 0; i < branches.size(); ++i) {
-    const double s = to_eigen(branches[i]).dot(n), square = s * s;
+double depth_along(std::span<const Vec3> branches, const Eigen::Vector3d& n) {
+  double s1 = 0.0, s2 = 0.0, s3 = 0.0, s4 = 0.0;
+  for (const Vec3& X : branches) {
+    const double s = to_eigen(X).dot(n), square = s * s;
     s1 += s, s2 += square, s3 += s * square, s4 += square * square;
-    if (i < near) near_square += square;
   }
   const auto count = static_cast<double>(branches.size() + 1);
-  s1 /= count, s2 /= count, s3 /= count, s4 /= count, near_square /= static_cast<double>(near);
+  s1 /= count, s2 /= count, s3 /= count, s4 /= count;
   const double variance = s2 - s1 * s1, mixed = s3 - s1 * s2;
-  if (!(variance > 0.0)) return 0.0;
-  return (s4 - s2 * s2 - mixed * mixed / variance) / (near_square * near_square);
+  return variance > 0.0 ? s4 - s2 * s2 - mixed * mixed / variance : 0.0;
 }
 
 }  // namespace
@@ -146,14 +159,13 @@ Extent extent(std::span<const Vec3> branches) {
   return values(0) > flat_below * values(2) ? Extent::space : Extent::plane;
 }
 
-double depth(std::span<const Vec3> branches, std::size_t near, Extent extent) {
-  const Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(squares(branches)).eigenvectors();
-  if (extent == Extent::plane) return depth_along(branches, near, axes.col(1));
-  double least = depth_along(branches, near, axes.col(0));
+double depth(std::span<const Vec3> branches, const Symmetric3& second_moment, Extent extent) {
+  const Matrix3d axes = axes_in_cells(branches, second_moment);
+  if (extent == Extent::plane) return depth_along(branches, axes.col(1));
+  double least = depth_along(branches, axes.col(0));
   for (int k = 1; k < directions; ++k) {
     const double angle = k * pi / directions;
-    const Eigen::Vector3d n = std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1);
-    least = std::min(least, depth_along(branches, near, n));
+    least = std::min(least, depth_along(branches, std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1)));
   }
   return least;
 }

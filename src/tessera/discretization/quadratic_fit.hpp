@@ -17,11 +17,10 @@ struct FittedQuadratic {
 enum class Extent { line, plane, space };
 Extent extent(std::span<const Vec3> branches);
 
-/// How much the particles tell of second derivatives in the direction in which they tell least: the variance of the
-/// squares s^2 of their places along it that no linear function of s explains, over the square of the mean s^2 of the
-/// first `near` of them. It is
-/// small in two layers.
-double depth(std::span<const Vec3> branches, std::size_t near, Extent extent);
+/// How much the particles tell of second derivatives in the direction n in which they tell least: the variance of the
+/// squares of s = n X_ab that no linear function of s explains. n has the length that makes s a number of cells:
+/// 12 n m n = 1 with the cell's second moment m per volume. Four layers have 1, three 2/9 and two none.
+double depth(std::span<const Vec3> branches, const Symmetric3& second_moment, Extent extent);
 
 /// Least squares over the branches: if they extend in a plane, the second derivatives in it; no fit where they do not
 /// determine as many as their extent has.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "tessera/discretization/discretization.hpp"
+#include "tessera/discretization/neighbour_rings.hpp"
 #include "tessera/discretization/quadratic_fit.hpp"
 #include "tessera/parallel/collect.hpp"
 
@@ -15,19 +15,19 @@ namespace {
 
 // Second derivatives that amplify noise more than this are not resolved.
 constexpr double largest_amplification = 12.0;
-// Nor are those of cells whose depth over amplification, in the mean with their neighbours, is less than this: two
-// layers. One cell counts as no deeper than that; cells with narrow stencils do.
-constexpr double least_certainty = 0.25, most_depth = 2.0;
+// Nor are those of cells that see none within so many rings of neighbours whose depth, in the mean with its neighbours,
+// is this: so three layers are not resolved and four are. One cell counts as no deeper than four layers; cells with
+// narrow stencils do.
+constexpr double least_depth = 0.6, most_depth = 1.0;
+constexpr int rings = 3;
 // Away from the boundary a fit takes the neighbours with a common face and then, until it amplifies no more than this,
 // the nearest of theirs, as many as this.
 constexpr double enough = 6.0;
 constexpr std::size_t most_added = 12;
-// All other fits take the nearest of their neighbours' neighbours, as many as this.
-constexpr std::size_t widely = 34;
-// Particles whose distances differ by less than this fraction are taken together, so that lattices keep their symmetry.
-constexpr double equally_far = 1e-6;
+// At the boundary it takes the nearest of theirs, as many as this, and elsewhere the nearest within three rings.
+constexpr std::size_t widely_at_boundary = 30, widely = 54;
 // The weight of a cell in means falls with this power of its deviation: the surest ones count.
-constexpr int falls_with = 8;
+constexpr int falls_with = 5;
 
 /// One particle's fit and what it is over.
 struct Fitted {
@@ -35,102 +35,78 @@ struct Fitted {
   double amplification = std::numeric_limits<double>::infinity();
   std::size_t far = 0;  // how many of the particles beyond the neighbours with a common face, nearest first
   bool averaged = false;
-  double depth = most_depth;
-
-  double certainty() const { return depth / amplification; }
+  double depth = 0.0;
 };
 
 /// Fits particles one by one.
 class Fitter {
  public:
   Fitted fit(const Discretization& d, Index a, CellPlace place) {
-    find_near(d, a);
-    if (near_ == 0) return {};
-    if (place == CellPlace::inside) {
-      extent_ = Extent::space;
-      if (const Fitted fitted = over(0); fitted.amplification <= enough) return fitted;
-    }
-    find_far(d, a);
+    rings_.find_near(d, a);
+    if (rings_.near() == 0) return {};
     if (place == CellPlace::inside)
-      if (const Fitted fitted = few(); fitted.amplification <= enough) return fitted;
-    Fitted wide = over(widely_added());
-    wide.averaged = place != CellPlace::near_boundary;
-    wide.depth = std::min(depth(branches_, near_, extent_), most_depth);
-    return wide;
+      if (const Fitted fitted = narrow(d, a); fitted.amplification <= enough) return fitted;
+    return wide(d, a, place);
   }
 
   /// Of the one that was fitted last, what the fit takes beyond the neighbours with a common face, ascending.
-  std::span<const Index> far(const Fitted& fitted) {
-    const auto begin = particles_.begin() + static_cast<std::ptrdiff_t>(near_);
-    std::sort(begin, begin + static_cast<std::ptrdiff_t>(fitted.far));
-    return std::span(particles_).subspan(near_, fitted.far);
+  std::vector<Index> far(const Fitted& fitted) const {
+    const std::span<const Index> nearest = rings_.particles().subspan(rings_.near(), fitted.far);
+    std::vector<Index> ascending(nearest.begin(), nearest.end());
+    std::sort(ascending.begin(), ascending.end());
+    return ascending;
   }
 
  private:
-  /// The least that is enough.
-  Fitted few() const {
-    Fitted fitted;
-    for (std::size_t added = 1; added <= std::min(most_added, particles_.size() - near_); ++added) {
-      if (belongs_to_next(near_ + added)) continue;
+  /// Of neighbours with a common face and the least of theirs that is enough.
+  Fitted narrow(const Discretization& d, Index a) {
+    extent_ = Extent::space;
+    Fitted fitted = over(0);
+    if (fitted.amplification <= enough) return fitted;
+    find_far(d, a, 2);
+    for (std::size_t added = 1; added <= std::min(most_added, rings_.far()); ++added) {
+      if (rings_.ends_within_equals(added)) continue;
       fitted = over(added);
       if (fitted.amplification <= enough) break;
     }
     return fitted;
   }
 
-  std::size_t widely_added() const {
-    std::size_t added = std::min(widely, particles_.size() - near_);
-    while (added > 0 && belongs_to_next(near_ + added)) ++added;
-    return added;
+  /// Over many, whatever they amplify.
+  Fitted wide(const Discretization& d, Index a, CellPlace place) {
+    find_far(d, a, rings);
+    const double seen = depth(rings_.branches(), d.measure->second_moment[static_cast<std::size_t>(a)], extent_);
+    const bool at_boundary = place == CellPlace::at_boundary;
+    if (at_boundary && extent_ == Extent::space) find_far(d, a, 2);
+    std::size_t added = std::min(at_boundary ? widely_at_boundary : widely, rings_.far());
+    while (rings_.ends_within_equals(added)) ++added;
+    Fitted fitted = over(added);
+    fitted.averaged = place != CellPlace::near_boundary;
+    fitted.depth = std::min(seen, most_depth);
+    return fitted;
   }
 
-  bool belongs_to_next(std::size_t count) const {
-    return count < branches_.size() && norm(branches_[count]) < (1.0 + equally_far) * norm(branches_[count - 1]);
+  /// And how far all extend, so that a layer of a body is no plane.
+  void find_far(const Discretization& d, Index a, int within) {
+    rings_.find_far(d, a, within);
+    extent_ = extent(rings_.branches());
   }
 
-  void find_near(const Discretization& d, Index a) {
-    particles_.clear();
-    branches_.clear();
-    d.for_each_face_neighbour(a, [&](Offset, Index b) {
-      particles_.push_back(b);
-      branches_.push_back(branch(d, a, b));
-    });
-    near_ = particles_.size();
-  }
-
-  /// Neighbours of those.
-  void find_far(const Discretization& d, Index a) {
-    for (std::size_t i = 0; i < near_; ++i)
-      d.for_each_face_neighbour(particles_[i], [&](Offset, Index c) {
-        if (c != a && std::find(particles_.begin(), particles_.end(), c) == particles_.end()) particles_.push_back(c);
-      });
-    const auto square = [&](Index b) { return norm2(branch(d, a, b)); };
-    std::sort(particles_.begin() + static_cast<std::ptrdiff_t>(near_), particles_.end(),
-              [&](Index l, Index r) { return std::pair(square(l), l) < std::pair(square(r), r); });
-    for (std::size_t i = near_; i < particles_.size(); ++i) branches_.push_back(branch(d, a, particles_[i]));
-    extent_ = extent(branches_);
-  }
-
-  static Vec3 branch(const Discretization& d, Index a, Index b) {
-    return d.X[static_cast<std::size_t>(b)] - d.X[static_cast<std::size_t>(a)];
-  }
-
-  /// The fit over the neighbours with a common face and as many others; `extent_` is that of all, so that a layer of a
-  /// body is no plane.
+  /// The fit over the neighbours with a common face and as many others.
   Fitted over(std::size_t others) const {
-    const std::span<const Vec3> all(branches_);
+    const std::span<const Vec3> all = rings_.branches();
+    const std::size_t near = rings_.near();
     double square = 0.0;
-    for (const Vec3& X : all.first(near_)) square += norm2(X);
+    for (const Vec3& X : all.first(near)) square += norm2(X);
     Fitted fitted;
-    fitted.quadratic = fit_quadratic(all.first(near_ + others), extent_);
-    fitted.amplification = square / static_cast<double>(near_) * fitted.quadratic.deviation;
+    fitted.depth = most_depth;
+    fitted.quadratic = fit_quadratic(all.first(near + others), extent_);
+    fitted.amplification = square / static_cast<double>(near) * fitted.quadratic.deviation;
     fitted.far = others;
     return fitted;
   }
 
-  std::vector<Index> particles_;
-  std::size_t near_ = 0;  // of them, with a common face
-  std::vector<Vec3> branches_;
+  NeighbourRings rings_;
   Extent extent_ = Extent::line;
 };
 
@@ -140,12 +116,27 @@ void add_terms(const Discretization& d, Index a, std::span<const Index> particle
     terms.push_back({b, share_of(fit, d.X[static_cast<std::size_t>(b)] - d.X[static_cast<std::size_t>(a)])});
 }
 
-/// Over a cell and its neighbours.
-double mean(const Discretization& d, Index a, const std::vector<double>& values) {
-  double sum = values[static_cast<std::size_t>(a)];
-  int count = 1;
-  d.for_each_face_neighbour(a, [&](Offset, Index b) { sum += values[static_cast<std::size_t>(b)], ++count; });
-  return sum / count;
+/// Each cell's value after `take` has taken in those of its neighbours, the count-th ones.
+template <class Take>
+std::vector<double> with_neighbours(const Discretization& d, const std::vector<double>& values, Take&& take) {
+  std::vector<double> result(values.size());
+  parallel::for_each(d.particles(), [&](std::int64_t i) {
+    double value = values[static_cast<std::size_t>(i)];
+    int count = 1;
+    d.for_each_face_neighbour(static_cast<Index>(i),
+                              [&](Offset, Index b) { take(value, values[static_cast<std::size_t>(b)], ++count); });
+    result[static_cast<std::size_t>(i)] = value;
+  });
+  return result;
+}
+
+/// The greatest depth, in means of neighbours, that cells see.
+std::vector<double> greatest_depths(const Discretization& d, const std::vector<double>& depths) {
+  std::vector<double> seen =
+      with_neighbours(d, depths, [](double& mean, double value, int count) { mean += (value - mean) / count; });
+  for (int ring = 0; ring < rings; ++ring)
+    seen = with_neighbours(d, seen, [](double& most, double value, int) { most = std::max(most, value); });
+  return seen;
 }
 
 /// The rows of those that are not resolved become empty.
@@ -179,22 +170,23 @@ SecondDerivatives second_derivatives(const Discretization& d, std::span<const Ce
   result.averaged.resize(d.X.size());
   result.weight.resize(d.X.size());
   result.amplification.resize(d.X.size());
-  std::vector<double> certainty(d.X.size());
+  std::vector<double> depths(d.X.size());
   result.far = parallel::collect_rows<Index>(d.particles(), [&](Index i, parallel::RowCollector<Index>& far) {
     const auto a = static_cast<std::size_t>(i);
     thread_local Fitter fitter;
     const Fitted fitted = places[a] == CellPlace::refused ? Fitted{} : fitter.fit(d, i, places[a]);
     result.amplification[a] = fitted.amplification;
-    certainty[a] = fitted.certainty();
+    depths[a] = fitted.depth;
     if (!(fitted.amplification <= largest_amplification)) return;
     result.fit[a] = fitted.quadratic.fit;
     result.averaged[a] = fitted.averaged;
     result.weight[a] = std::pow(size * size * fitted.quadratic.deviation, -falls_with);
     for (const Index b : fitter.far(fitted)) far.add(b);
   });
+  depths = greatest_depths(d, depths);
   parallel::for_each(d.particles(), [&](std::int64_t i) {
     const auto a = static_cast<std::size_t>(i);
-    result.resolved[a] = result.weight[a] > 0.0 && mean(d, static_cast<Index>(i), certainty) >= least_certainty;
+    result.resolved[a] = result.weight[a] > 0.0 && depths[a] >= least_depth;
     if (result.resolved[a]) return;
     result.fit[a] = {};
     result.averaged[a] = 0;

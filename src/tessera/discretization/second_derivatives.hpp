@@ -45,9 +45,9 @@ struct CurvatureTerm {
 /// Where a cell is: a boundary face is its own, or a neighbour's.
 enum class CellPlace : char { inside, near_boundary, at_boundary, refused };
 
-/// Fits all particles of `d`, which must have its bonds. Cells that are refused, whose neighbours and those of them do
-/// not determine the second derivatives, or that are not deep enough, are not resolved. A body in one plane has those
-/// in it.
+/// Fits all particles of `d`, which must have its bonds and the measure of its cells. Cells that are refused, whose
+/// neighbours and those of them do not determine the second derivatives, or that are not deep enough, are not resolved.
+/// A body in one plane has those in it.
 SecondDerivatives second_derivatives(const Discretization& d, std::span<const CellPlace> places);
 
 /// H_a as a sum over particles, without a itself.

@@ -85,7 +85,7 @@ std::string describe_unresolved(const std::string& body, const std::vector<char>
   if (unresolved == 0) return {};
   return fmt::format(
       "second-order integration of body \"{}\": {} of {} cells take integration = \"cell\" and linear faces, for the "
-      "particles around them do not determine second derivatives (fewer than three layers in some direction, hardly "
+      "particles around them do not determine second derivatives (fewer than four layers in some direction, hardly "
       "more than a dozen particles around, as at a tip, or several faces with one neighbour)",
       body, unresolved, resolved.size());
 }

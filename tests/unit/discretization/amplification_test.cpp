@@ -18,37 +18,41 @@ using Weights = std::map<std::size_t, std::array<double, 6>>;  // of particles, 
 struct Fit {
   Weights W;  // with the particle itself
   double deviation = std::numeric_limits<double>::infinity(), amplification = deviation;
-  double depth = 2.0;           // 2 at most, and inside
-  double mean_certainty = 0.0;  // depth over amplification, with the neighbours'
+  double depth = 1.0;       // 1 at most, and where the stencil is narrow
+  double mean_depth = 0.0;  // with the neighbours'
+  double deepest = 0.0;     // the greatest of those within three rings of neighbours
   bool is_mean = false;
 
-  bool is_resolved() const { return amplification <= 12.0 && mean_certainty >= 0.25; }
+  bool is_resolved() const { return amplification <= 12.0 && deepest >= 0.6; }
 };
 
 /// How much the places s of particles along n tell of second derivatives: the mean square of what is left of s^2 when
-/// the best linear function of s is taken off, over the square of the mean s^2 of the nearest ones.
-double depth_along(const Vec3& n, const std::vector<Vec3>& branches, std::size_t nearest) {
-  const auto count = static_cast<Eigen::Index>(branches.size()) + 1;
-  Eigen::MatrixXd linear = Eigen::MatrixXd::Ones(count, 2);
-  Eigen::VectorXd s = Eigen::VectorXd::Zero(count);  // the last one is the particle itself
-  for (std::size_t i = 0; i < branches.size(); ++i) s(static_cast<Eigen::Index>(i)) = dot(branches[i], n);
+/// the best linear function of s is taken off.
+double depth_along(const Eigen::Vector3d& n, const Eigen::MatrixX3d& X) {
+  Eigen::MatrixXd linear = Eigen::MatrixXd::Ones(X.rows(), 2);
+  const Eigen::VectorXd s = X * n, squares = s.cwiseProduct(s);
   linear.col(1) = s;
-  const Eigen::VectorXd squares = s.cwiseProduct(s);
   const Eigen::VectorXd best = linear.colPivHouseholderQr().solve(squares);
-  const double mean = squares.head(static_cast<Eigen::Index>(nearest)).mean();
-  return (squares - linear * best).squaredNorm() / static_cast<double>(count) / (mean * mean);
+  return (squares - linear * best).squaredNorm() / static_cast<double>(X.rows());
 }
 
-/// The least of six directions across the longest axis, each 30 degrees from the next.
-double depth_of(const std::vector<Vec3>& branches, std::size_t nearest) {
-  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
-  for (const Vec3& X : branches) K += Eigen::Vector3d(X.x, X.y, X.z) * Eigen::Vector3d(X.x, X.y, X.z).transpose();
-  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(K).eigenvectors();
+/// In coordinates in which the cell is as wide in all directions, the least of six directions across the longest axis,
+/// each 30 degrees from the next.
+double depth_of(const std::vector<Vec3>& branches, const Mat3& second_moment) {
+  Eigen::Matrix3d M;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) M(i, j) = 12.0 * second_moment(i, j);
+  const Eigen::Matrix3d to_cells = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(M).operatorInverseSqrt();
+  Eigen::MatrixX3d X = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(branches.size()) + 1, 3);  // the particle last
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    X.row(static_cast<Eigen::Index>(i)) = to_cells * Eigen::Vector3d(branches[i].x, branches[i].y, branches[i].z);
+  const Eigen::MatrixX3d centred = X.rowwise() - X.colwise().mean();
+  const Eigen::Matrix3d axes =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centred.transpose() * centred).eigenvectors();
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 6; ++k) {
     const double angle = k * std::acos(-1.0) / 6.0;
-    const Eigen::Vector3d n = std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1);
-    least = std::min(least, depth_along({n(0), n(1), n(2)}, branches, nearest));
+    least = std::min(least, depth_along(std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1), X));
   }
   return least;
 }
@@ -67,11 +71,17 @@ class Fits {
     double volume = 0.0;
     for (const double V : body.cells.volume) volume += V;
     size_ = std::cbrt(volume / static_cast<double>(body.X.size()));
-    for (std::size_t a = 0; a < body.X.size(); ++a) fits_.push_back(refused_.contains(a) ? Fit{} : best(a));
+    for (std::size_t a = 0; a < body.X.size(); ++a) fits_.push_back(best(a));
     for (std::size_t a = 0; a < body.X.size(); ++a) {
-      double sum = fits_[a].depth / fits_[a].amplification;
-      for (const std::size_t b : near_[a]) sum += fits_[b].depth / fits_[b].amplification;
-      fits_[a].mean_certainty = sum / static_cast<double>(1 + near_[a].size());
+      double sum = fits_[a].depth;
+      for (const std::size_t b : near_[a]) sum += fits_[b].depth;
+      fits_[a].mean_depth = sum / static_cast<double>(1 + near_[a].size());
+    }
+    for (std::size_t a = 0; a < body.X.size(); ++a) {
+      std::set<std::size_t> seen = near_[a];
+      for (const std::size_t b : beyond(a, 3)) seen.insert(b);
+      seen.insert(a);
+      for (const std::size_t b : seen) fits_[a].deepest = std::max(fits_[a].deepest, fits_[b].mean_depth);
     }
   }
 
@@ -84,7 +94,7 @@ class Fits {
   }
 
   double weight(std::size_t a) const {
-    return fits_[a].is_resolved() ? std::pow(size_ * size_ * fits_[a].deviation, -8) : 0.0;
+    return fits_[a].is_resolved() ? std::pow(size_ * size_ * fits_[a].deviation, -5) : 0.0;
   }
 
   /// Of the second derivatives that the cell uses.
@@ -105,10 +115,11 @@ class Fits {
  private:
   double distance(std::size_t a, std::size_t b) const { return norm(body_.X[b] - body_.X[a]); }
 
-  /// Neighbours of neighbours, nearest first.
-  std::vector<std::size_t> beyond(std::size_t a) const {
-    std::set<std::size_t> all;
-    for (const std::size_t b : near_[a]) all.insert(near_[b].begin(), near_[b].end());
+  /// Those within so many rings of neighbours but the first, nearest first.
+  std::vector<std::size_t> beyond(std::size_t a, int rings) const {
+    std::set<std::size_t> all = near_[a];
+    for (int k = 1; k < rings; ++k)
+      for (const std::size_t b : std::set<std::size_t>(all)) all.insert(near_[b].begin(), near_[b].end());
     std::vector<std::size_t> sorted;
     for (const std::size_t c : all)
       if (c != a && !near_[a].contains(c)) sorted.push_back(c);
@@ -123,18 +134,26 @@ class Fits {
   }
 
   Fit best(std::size_t a) const {
-    const std::vector<std::size_t> more = beyond(a);
-    if (is_inside(a))
-      for (std::size_t n = 0; n <= std::min<std::size_t>(12, more.size()); ++n) {
-        if (divides(a, more, n)) continue;
-        const Fit fit = over(a, {more.begin(), more.begin() + static_cast<std::ptrdiff_t>(n)});
+    if (refused_.contains(a)) {
+      Fit none;
+      none.depth = 0.0;
+      return none;
+    }
+    if (is_inside(a)) {
+      const std::vector<std::size_t> few = beyond(a, 2);
+      for (std::size_t n = 0; n <= std::min<std::size_t>(12, few.size()); ++n) {
+        if (divides(a, few, n)) continue;
+        const Fit fit = over(a, {few.begin(), few.begin() + static_cast<std::ptrdiff_t>(n)});
         if (fit.amplification <= 6.0) return fit;
       }
-    std::size_t nearest = std::min<std::size_t>(34, more.size());
+    }
+    const std::vector<std::size_t> more = beyond(a, at_boundary_[a] ? 2 : 3);
+    std::size_t nearest = std::min<std::size_t>(at_boundary_[a] ? 30 : 54, more.size());
     while (divides(a, more, nearest)) ++nearest;
     Fit fit = over(a, {more.begin(), more.begin() + static_cast<std::ptrdiff_t>(nearest)});
     fit.is_mean = at_boundary_[a] || is_inside(a);
-    fit.depth = std::min(2.0, depth_of(branches(a, stencil(a, more)), near_[a].size()));
+    const Mat3 second_moment = (1.0 / body_.cells.volume[a]) * to_mat3(body_.cells.second_moment[a]);
+    fit.depth = std::min(1.0, depth_of(branches(a, stencil(a, beyond(a, 3))), second_moment));
     return fit;
   }
 
@@ -178,34 +197,24 @@ Discretization curved(const VoronoiBody& body) {
   return discretize(Method::consistent, body, Integration::second_order);
 }
 
-/// Three layers of which two come together along x: what they tell of the second derivatives across becomes less, until
-/// they are as good as two.
-VoronoiBody wedge() {
-  const Solid solid = box({9, 4, 3});
-  VoronoiBody body = voronoi_body(solid, {9, 4, 3}, 0.1, 5, nothing);
-  for (Vec3& X : body.X) {
-    const double apart = 1.0 - 0.115 * X.x;
-    X.z = X.z < 1.0 ? 0.5 : X.z < 2.0 ? 2.5 - apart : 2.5;
-  }
-  body.cells = voronoi_cells(body.X, solid, Moments::second_of_faces);
-  body.D.assign(body.cells.boundary.size(), {});
-  return body;
-}
+/// So irregular that it is no matter of course whether they are three layers.
+VoronoiBody hardly_layers() { return voronoi_body(box({12, 12, 3}), {12, 12, 3}, 0.4, 1, nothing); }
 
-/// A lattice two and a half times as wide in one direction: the nearest twelve do not tell of mixed derivatives in it,
-/// so cells take means away from the boundary too.
-VoronoiBody stretched() { return voronoi_body(box({6, 6, 12.5}), {6, 6, 5}, 0.0, 1, nothing); }
+/// A lattice that is `stretch` times as wide in one direction. Two and a half times, the nearest twelve do not tell of
+/// mixed derivatives in it, so cells take means away from the boundary too.
+VoronoiBody stretched(double stretch) { return voronoi_body(box({6, 6, 5 * stretch}), {6, 6, 5}, 0.0, 1, nothing); }
 
 std::vector<VoronoiBody> bodies() {
   return {voronoi_body(box({1, 1, 1}), {4, 4, 4}, 0.25, 9, nothing),
           voronoi_body(box({1, 1, 1}), {6, 6, 6}, 0.45, 2, nothing),
           voronoi_body(box({1, 1, 1}), {5, 6, 5}, 0.0, 1, nothing),
-          stretched(),
-          voronoi_body(box({1, 1, 1}), {4, 3, 4}, 0.25, 9, mixed),
+          stretched(2.5),
+          voronoi_body(box({1, 1, 1}), {4, 5, 4}, 0.25, 9, mixed),
           voronoi_body(l_block(), {4, 7, 3}, 0.2, 4, nothing),
+          voronoi_body(l_block(), {8, 13, 4}, 0.2, 4, nothing),
           voronoi_body(box({3, 2, 1}), {6, 4, 2}, 0.15, 2, nothing),
           voronoi_body(box({3, 2, 1}), {6, 4, 2}, 0.35, 2, nothing),
-          wedge()};
+          hardly_layers()};
 }
 
 /// Those of all particles but the one itself, as one matrix.
@@ -261,22 +270,42 @@ TEST(Amplification, AndFitAndWeightAreThoseOfTheTheory) {
   EXPECT_GT(mean_inside, 0);
 }
 
-/// Cells on either side of the limit of depth over amplification are in one body.
-TEST(Amplification, OverDepthOfMoreThanFourIsNotResolved) {
-  const VoronoiBody body = wedge();
+/// Cells on either side of the limit of depth are in one body.
+TEST(Depth, DecidesWhatIsResolved) {
+  const VoronoiBody body = hardly_layers();
   const Discretization d = curved(body);
   const SecondDerivatives& found = d.second_order->derivatives;
   const Fits fits(body);
-  int just_sure = 0, just_unsure = 0;
+  int just_deep = 0, just_shallow = 0;
   for (std::size_t a = 0; a < body.X.size(); ++a) {
-    const double amplification = fits.at(a).amplification, certainty = fits.at(a).mean_certainty;
-    EXPECT_EQ(found.resolved[a] != 0, amplification <= 12.0 && certainty >= 0.25) << a << ": " << amplification;
-    if (found.amplification[a] > 12.0) continue;
-    just_sure += certainty >= 0.25 && certainty < 0.35 ? 1 : 0;
-    just_unsure += certainty < 0.25 && certainty > 0.15 ? 1 : 0;
+    const double depth = fits.at(a).deepest;
+    EXPECT_EQ(found.resolved[a] != 0, depth >= 0.6) << a << ": " << depth;
+    just_deep += depth >= 0.6 && depth < 0.65 ? 1 : 0;
+    just_shallow += depth < 0.6 && depth > 0.55 ? 1 : 0;
   }
-  EXPECT_GT(just_sure, 0);
-  EXPECT_GT(just_unsure, 0);
+  EXPECT_GT(just_deep, 0);
+  EXPECT_GT(just_shallow, 0);
+}
+
+/// Depth is not all: in a stretched lattice five layers of six by six are deep, but the nearest particles are in too
+/// few of them.
+TEST(Amplification, OfMoreThanTwelveIsNotResolved) {
+  int below = 0, above = 0;
+  for (const double stretch : {3.0, 3.5, 4.0, 4.5, 5.0}) {
+    const VoronoiBody body = stretched(stretch);
+    const Discretization d = curved(body);
+    const SecondDerivatives& found = d.second_order->derivatives;
+    const Fits fits(body);
+    for (std::size_t a = 0; a < body.X.size(); ++a) {
+      if (fits.at(a).deepest < 0.6) continue;
+      const double amplification = found.amplification[a];
+      EXPECT_EQ(found.resolved[a] != 0, amplification <= 12.0) << stretch << ", " << a << ": " << amplification;
+      below += amplification <= 12.0 && amplification > 6.0 ? 1 : 0;
+      above += amplification > 12.0 && amplification < 24.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(below, 0);
+  EXPECT_GT(above, 0);
 }
 
 }  // namespace

@@ -45,12 +45,12 @@ double quadratic(const Vec3& X) {
 }
 constexpr Symmetric3 its_derivatives{0.3, -0.7, 0.2, 1.1, 0.5, -0.4};
 
-/// Inside, at sides, edges, re-entrant edges and corners, through three layers of cells, at faces of all kinds.
+/// Inside, at sides, edges, re-entrant edges and corners, through four layers of cells, at faces of all kinds.
 TEST(SecondDerivatives, AreExactForQuadraticsEverywhere) {
   for (const Constrain& constrain : {Constrain(nothing), Constrain(mixed), Constrain(everything)})
     for (const double jitter : {0.0, 0.2, 0.4})
       for (const auto& [solid, counts] : std::vector<std::pair<Solid, std::array<int, 3>>>{
-               {box({1, 1, 1}), {5, 5, 5}}, {box({2, 1, 0.5}), {12, 6, 3}}, {l_block(), {6, 10, 3}}}) {
+               {box({1, 1, 1}), {5, 5, 5}}, {box({2, 1, 0.5}), {16, 8, 4}}, {l_block(), {8, 13, 4}}}) {
         const Discretization d = curved(solid, counts, jitter, constrain);
         EXPECT_EQ(resolved(d), d.particles()) << "jitter " << jitter;
         for (Index a = 0; a < d.particles(); ++a)
@@ -59,13 +59,26 @@ TEST(SecondDerivatives, AreExactForQuadraticsEverywhere) {
       }
 }
 
-/// Two layers do not determine the second derivative across; their cells say so.
-TEST(SecondDerivatives, AreNotResolvedByTwoLayers) {
-  for (const double jitter : {0.0, 0.1, 0.2}) {
-    const Discretization d = curved(box({2, 1, 0.4}), {10, 5, 2}, jitter, nothing);
-    EXPECT_EQ(resolved(d), 0) << "jitter " << jitter;
-    for (const std::vector<CurvatureTerm>& terms : both(d, 7)) EXPECT_TRUE(terms.empty());
-  }
+/// Two layers do not determine the second derivative across, three do not leave the step as long as it was; their cells
+/// say so, in slabs and bars.
+TEST(SecondDerivatives, AreNotResolvedByTwoOrThreeLayers) {
+  for (const double jitter : {0.0, 0.1, 0.2, 0.3})
+    for (const std::array<int, 3>& counts : {std::array{10, 5, 2}, {10, 10, 3}, {9, 3, 4}, {9, 3, 3}, {3, 3, 3}}) {
+      const Solid solid = box({0.1 * counts[0], 0.1 * counts[1], 0.1 * counts[2]});
+      const Discretization d = curved(solid, counts, jitter, nothing);
+      EXPECT_EQ(resolved(d), 0) << "jitter " << jitter << ", " << counts[1] << " x " << counts[2];
+      for (const std::vector<CurvatureTerm>& terms : both(d, 7)) EXPECT_TRUE(terms.empty());
+    }
+}
+
+/// Four are enough, also of cells that are flat, if these are not very irregular.
+TEST(SecondDerivatives, AreResolvedByFourLayers) {
+  for (const auto& [jitter, flat] : {std::pair{0.0, 1.0}, {0.1, 1.0}, {0.2, 1.0}, {0.3, 1.0}, {0.0, 0.5}, {0.1, 0.5}})
+    for (const std::array<int, 3>& counts : {std::array{10, 10, 4}, {9, 4, 4}, {4, 4, 4}, {6, 5, 4}}) {
+      const Solid solid = box({0.1 * counts[0], 0.1 * counts[1], 0.1 * flat * counts[2]});
+      EXPECT_EQ(resolved(curved(solid, counts, jitter, nothing)), counts[0] * counts[1] * counts[2])
+          << "jitter " << jitter << ", " << counts[1] << " x " << counts[2] << ", " << flat;
+    }
 }
 
 /// Particles in one plane see the second derivatives in it, and none out of it, however thick the slab.

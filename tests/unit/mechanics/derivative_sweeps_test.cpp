@@ -40,7 +40,7 @@ VoronoiBody gear() {
   const TriangleSurface surface = gear_surface(9, 0.4, 1.0, 1.3, 0.5);
   const SurfaceIndex index(surface);
   LatticeSpec spec;
-  spec.spacing = 0.2;
+  spec.spacing = 0.125;
   spec.jitter = 0.3;
   spec.seed = 4;
   VoronoiBody body;
@@ -120,7 +120,7 @@ class DerivativeSweeps : public testing::TestWithParam<Body> {
 /// In rows of tiles as in bonds: neighbours with a common face, others, and what fits take beyond them.
 TEST_P(DerivativeSweeps, FollowBondsAndTerms) {
   EXPECT_GT(s.tiles.size(), 3);
-  EXPECT_EQ(s.second_order->rows.others.empty(), GetParam().name != "gear");
+  EXPECT_EQ(s.second_order->rows.others.empty(), GetParam().name == "mixed_box" || GetParam().name == "regular_box");
   EXPECT_FALSE(s.second_order->rows.far.empty());
   for (Index a = 0; a < s.particles(); ++a) {
     const auto k = static_cast<std::size_t>(a);
@@ -159,7 +159,7 @@ std::vector<Body> bodies() {
            }},
           {"l_block",
            [] {
-             return voronoi_body(l_block(), {6, 10, 3}, 0.3, 4, nothing);
+             return voronoi_body(l_block(), {8, 13, 4}, 0.3, 4, nothing);
            }},
           {"gear", gear}};
 }

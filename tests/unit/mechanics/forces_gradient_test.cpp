@@ -26,9 +26,9 @@ class ForcesFromPotential : public testing::TestWithParam<Variant> {
     forces.evaluate(state, {walls, {}, {}}, 0.0);
   }
 
-  const System s = system_of(
-      discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
-      rubber());
+  const System s = system_of(discretize(GetParam().method, box({1, 1, 1}), small_cube(GetParam().integration), 0.25, 5,
+                                        GetParam().constrain, GetParam().integration),
+                             rubber());
   const std::vector<Vec3> walls = walls_of(s, wavy);
   State state = reference_state(s);
   Forces forces{s};
@@ -142,7 +142,8 @@ class Conservation : public testing::TestWithParam<Kind> {};
 
 /// Free bodies: forces and torques of any state add up to zero.
 TEST_P(Conservation, ForcesAndTorquesVanish) {
-  const System s = system_of(discretize(GetParam(), box({1, 1, 1}), {4, 3, 3}, 0.3, 11, nothing), rubber());
+  const System s =
+      system_of(discretize(GetParam(), box({1, 1, 1}), small_cube(GetParam().integration), 0.3, 11, nothing), rubber());
   State state = reference_state(s);
   move(state, s, wavy);
   Forces forces(s);
@@ -154,7 +155,8 @@ TEST_P(Conservation, ForcesAndTorquesVanish) {
 
 /// F(Qx) = Q F(x) for the free body, and so for forces.
 TEST_P(Conservation, DeformationGradientIsObjective) {
-  const System s = system_of(discretize(GetParam(), box({1, 1, 1}), {3, 3, 3}, 0.3, 3, nothing), rubber());
+  const System s =
+      system_of(discretize(GetParam(), box({1, 1, 1}), small_cube(GetParam().integration), 0.3, 3, nothing), rubber());
   const double c = std::cos(0.7), z = std::sin(0.7);
   const Mat3 Q{{c, -z, 0, z, c, 0, 0, 0, 1}};
   State state = reference_state(s), turned = state;
@@ -175,9 +177,9 @@ TEST_P(Conservation, DeformationGradientIsObjective) {
 /// Bodies whose faces are all or partly held by a tool, or free.
 class HeldByTools : public testing::TestWithParam<Variant> {
  protected:
-  const System s = system_of(
-      discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
-      rubber());
+  const System s = system_of(discretize(GetParam().method, box({1, 1, 1}), small_cube(GetParam().integration), 0.25, 5,
+                                        GetParam().constrain, GetParam().integration),
+                             rubber());
 
   /// Positions in a wavy motion, with walls apart from it, so that boundary bonds are strained; all turned by Q.
   State moved(const Mat3& Q) const {

@@ -15,8 +15,9 @@ struct Variant {
 class LawsAtPoints : public testing::TestWithParam<Variant> {
  protected:
   System cube(const Constrain& constrain, const Material& m) const {
-    return system_of(
-        discretize(Method::consistent, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, constrain, GetParam().integration), m);
+    return system_of(discretize(Method::consistent, box({1, 1, 1}), small_cube(GetParam().integration), 0.25, 5,
+                                constrain, GetParam().integration),
+                     m);
   }
   Material material() const { return other_materials()[GetParam().material]; }
 };
@@ -90,8 +91,8 @@ TEST_P(ViscosityAtPoints, TakesTheWorkThatIsBooked) {
   Material viscous = rubber();
   viscous.viscosity = {0.3, 0.7};
   const auto total = [&](const Material& m, double& dissipated, double& work) {
-    const System s =
-        system_of(discretize(Method::consistent, box({1, 1, 1}), {4, 3, 3}, 0.25, 5, nothing, GetParam()), m);
+    const System s = system_of(
+        discretize(Method::consistent, box({1, 1, 1}), small_cube(GetParam()), 0.25, 5, nothing, GetParam()), m);
     State before = reference_state(s), state = before;
     move(before, s, wavy);
     move(state, s, further);

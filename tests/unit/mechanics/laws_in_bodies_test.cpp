@@ -31,9 +31,9 @@ class LawsInBodies : public testing::TestWithParam<Variant> {
     return trial.sums().internal + trial.sums().contact + trial.sums().dissipated;
   }
 
-  const System s = system_of(
-      discretize(GetParam().method, box({1, 1, 1}), {3, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
-      other_materials()[GetParam().material], small_tiles, GetParam().volumetric);
+  const System s = system_of(discretize(GetParam().method, box({1, 1, 1}), small_cube(GetParam().integration), 0.25, 5,
+                                        GetParam().constrain, GetParam().integration),
+                             other_materials()[GetParam().material], small_tiles, GetParam().volumetric);
   std::vector<Vec3> walls;
   State state = reference_state(s);
   Forces forces{s};

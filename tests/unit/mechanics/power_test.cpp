@@ -54,7 +54,7 @@ Body in_surface(const std::string& name, const TriangleSurface& surface, double 
 }
 
 std::vector<Body> bodies() {
-  return {in_solid("box", box({1, 1, 1}), {4, 4, 4}, 3), in_solid("L-block", l_block(), {4, 6, 2}, 4),
+  return {in_solid("box", box({1, 1, 1}), {4, 4, 4}, 3), in_solid("L-block", l_block(), {8, 13, 4}, 4),
           in_surface("ball", ball_surface(1.0, 12, 24), 0.35, 1),
           in_surface("gear", turned(gear_surface(9, 0.4, 1.0, 1.3, 0.5), 0.7), 0.2, 2)};
 }
@@ -217,7 +217,7 @@ TEST(PowerCells, HaveForcesFromAPotential) {
   Material m = rubber();
   m.contact = {0.8, 1.9};
   for (const Integration integration : integrations) {
-    Body b = in_solid("box", box({1, 1, 1}), {4, 3, 4}, 5);
+    Body b = in_solid("box", box({1, 1, 1}), small_cube(integration), 5);
     expect_forces_of_potential(system_with(b, mixed, m, integration));
   }
 }

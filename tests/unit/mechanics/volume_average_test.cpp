@@ -16,9 +16,9 @@ struct Variant {
 class AveragedVolume : public testing::TestWithParam<Variant> {
  protected:
   System make(Volumetric volumetric, Index tile = small_tiles) const {
-    return system_of(
-        discretize(GetParam().method, box({1, 1, 1}), {4, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
-        rubber(1e6, 0.49), tile, volumetric);
+    return system_of(discretize(GetParam().method, box({1, 1, 1}), small_cube(GetParam().integration), 0.25, 5,
+                                GetParam().constrain, GetParam().integration),
+                     rubber(1e6, 0.49), tile, volumetric);
   }
 
   const System s = make(Volumetric::averaged);
@@ -98,9 +98,9 @@ TEST_P(AveragedVolume, ReactionsAreDerivativesWithRespectToWalls) {
 TEST_P(AveragedVolume, IsReported) {
   Material m = rubber(1e6, 0.49);
   m.contact = {0.0, 0.0};
-  const System quiet = system_of(
-      discretize(GetParam().method, box({1, 1, 1}), {4, 3, 3}, 0.25, 5, GetParam().constrain, GetParam().integration),
-      m, small_tiles, Volumetric::averaged);
+  const System quiet = system_of(discretize(GetParam().method, box({1, 1, 1}), small_cube(GetParam().integration), 0.25,
+                                            5, GetParam().constrain, GetParam().integration),
+                                 m, small_tiles, Volumetric::averaged);
   move(state, quiet, wavy);
   Forces f(quiet);
   f.evaluate(state, {walls, {}, {}}, 0.0);
@@ -164,8 +164,8 @@ TEST(AveragedVolumeOfFreeBodies, ConservesMomenta) {
                                             {Method::variational, Integration::cell},
                                             {Method::consistent, Integration::second_order}}) {
     SCOPED_TRACE(name_of(kind));
-    const System s = system_of(discretize(kind, box({1, 1, 1}), {4, 3, 3}, 0.3, 11, nothing), rubber(1e6, 0.499),
-                               small_tiles, Volumetric::averaged);
+    const System s = system_of(discretize(kind, box({1, 1, 1}), small_cube(kind.integration), 0.3, 11, nothing),
+                               rubber(1e6, 0.499), small_tiles, Volumetric::averaged);
     State state = reference_state(s);
     move(state, s, wavy);
     Forces forces(s);

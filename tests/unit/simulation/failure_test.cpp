@@ -46,7 +46,7 @@ void expect_honest_failure(const std::string& message, const std::string& direct
 
 void expect_inverted_cell(Method method, Integration integration) {
   Case c = cube_case(method, {3, 3, 3}, 0.0);
-  c.method.integration = integration;
+  integrate(c, integration);
   c.time.end = 1.0;
   c.time.step = AutoStep{};
   // The lid is pushed through the bottom.

@@ -102,14 +102,13 @@ std::vector<Sample> samples() {
   }
   for (const auto& [name, integration] :
        {std::pair{"consistent_cell_", Integration::cell}, {"consistent_second_order_", Integration::second_order}}) {
-    all.push_back(
-        {std::string(name) + "free", Method::consistent, [=](Case& c) { c.method.integration = integration; }});
+    all.push_back({std::string(name) + "free", Method::consistent, [=](Case& c) { integrate(c, integration); }});
     all.push_back({std::string(name) + "viscosity", Method::consistent, [=](Case& c) {
-                     c.method.integration = integration;
+                     integrate(c, integration);
                      c.materials[0].viscosity = {0.2, 0.5};
                    }});
     all.push_back({std::string(name) + "everything", Method::consistent, [=](Case& c) {
-                     c.method.integration = integration;
+                     integrate(c, integration);
                      everything(c);
                    }});
   }
@@ -129,7 +128,7 @@ TEST(Momentum, OfFreeBodiesStays) {
                                             {Method::consistent, Integration::cell},
                                             {Method::consistent, Integration::second_order}}) {
     Case c = cube_case(method);
-    c.method.integration = integration;
+    integrate(c, integration);
     c.materials[0].viscosity = {0.1, 0.1};
     c.initial = {initial_velocity(formulas("1+0.5*Y", "-2*Z", "0.8*X*Y"))};
     Running run(c);

@@ -18,7 +18,7 @@ std::string name_of(const Variant& v) {
 Case pulled(const Variant& v) {
   Case c = cube_case(v.method, {3, 3, 3}, 0.2);
   c.method.volumetric = v.volumetric;
-  c.method.integration = v.integration;
+  integrate(c, v.integration);
   c.materials[0].law = J2Plasticity::from_young_poisson(1e6, 0.3, 1e4, 5e4);
   c.boundary = {condition({"-z"}, Condition::fixed),
                 condition({"+z"}, PrescribedDisplacement{{formula("0"), std::nullopt, formula("0.1*sin(20*t)^3")}})};
