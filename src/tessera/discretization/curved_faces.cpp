@@ -57,9 +57,9 @@ class StencilSquares {
   std::vector<Index> stencil_;
 };
 
-std::vector<Symmetric3> interior_curvature(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
-                                           const FacePositions& positions) {
-  std::vector<Symmetric3> M(cells.interior.size());
+RawField<Symmetric3> interior_curvature(std::span<const Vec3> X, const Cells& cells, const Csr<FaceOfCell>& faces,
+                                        const FacePositions& positions) {
+  RawField<Symmetric3> M(cells.interior.size());
   parallel::for_ranges(0, static_cast<std::int64_t>(M.size()), [&](std::int64_t begin, std::int64_t end) {
     StencilSquares squares(X, faces, positions);
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
@@ -116,14 +116,18 @@ std::vector<CellPlace> places_of(const Csr<FaceOfCell>& faces) {
 
 /// M_f of the bonds between resolved cells.
 RawField<Symmetric3> curvature_of_bonds(const Discretization& d, const Csr<FaceOfCell>& faces,
-                                        const std::vector<Symmetric3>& interior, const std::vector<char>& resolved) {
-  RawField<Symmetric3> M(static_cast<std::size_t>(d.bonds.size()), Symmetric3{});
+                                        std::span<const Symmetric3> interior, const std::vector<char>& resolved) {
+  RawField<Symmetric3> M(static_cast<std::size_t>(d.bonds.size()));
   parallel::for_each(d.particles(), [&](std::int64_t i) {
     const auto a = static_cast<Index>(i);
+    std::fill(M.begin() + d.bonds.begin(a), M.begin() + d.bonds.end(a), Symmetric3{});
     if (!resolved[static_cast<std::size_t>(a)]) return;
-    for (const FaceOfCell& g : interior_faces(faces, a))
+    Offset bond = d.bonds.begin(a);  // both rows are ascending
+    for (const FaceOfCell& g : interior_faces(faces, a)) {
+      while (d.bonds.neighbour[static_cast<std::size_t>(bond)] < g.neighbour) ++bond;
       if (resolved[static_cast<std::size_t>(g.neighbour)])
-        M[static_cast<std::size_t>(d.bonds.find(a, g.neighbour))] = interior[static_cast<std::size_t>(g.face)];
+        M[static_cast<std::size_t>(bond)] = interior[static_cast<std::size_t>(g.face)];
+    }
   });
   return M;
 }
@@ -145,22 +149,21 @@ void join(std::vector<FaceTerm>& terms) {
 /// Positions of the boundary faces with second derivatives.
 Csr<FaceTerm> boundary_positions(const Discretization& d, const Cells& cells, const FacePositions& positions,
                                  std::span<const Symmetric3> M, const SecondDerivatives& s) {
-  return parallel::collect_rows<FaceTerm>(static_cast<Index>(M.size()),
-                                          [&](Index k, parallel::RowCollector<FaceTerm>& out) {
-                                            const std::span<const FaceTerm> linear = positions.boundary.row(k);
-                                            if (linear.empty()) return;
-                                            std::vector<FaceTerm> terms(linear.begin(), linear.end());
-                                            const Index owner = cells.boundary[static_cast<std::size_t>(k)].owner;
-                                            double sum = 0.0;
-                                            for (const CurvatureTerm& t : cell_curvature(d, s, owner)) {
-                                              const double weight = contract(t.W, M[static_cast<std::size_t>(k)]);
-                                              terms.push_back({t.particle, weight});
-                                              sum += weight;
-                                            }
-                                            terms.push_back({owner, -sum});
-                                            join(terms);
-                                            for (const FaceTerm& t : terms) out.add(t);
-                                          });
+  return parallel::collect_rows<FaceTerm>(
+      static_cast<Index>(M.size()), [&](Index k, parallel::RowCollector<FaceTerm>& out) {
+        const std::span<const FaceTerm> linear = positions.boundary.row(k);
+        if (linear.empty()) return;
+        std::vector<FaceTerm> terms(linear.begin(), linear.end());
+        const Index owner = cells.boundary[static_cast<std::size_t>(k)].owner;
+        double sum = 0.0;
+        for (const MeanTerm& t : contracted_curvature(d, s, owner, M[static_cast<std::size_t>(k)])) {
+          terms.push_back({t.particle, t.weight});
+          sum += t.weight;
+        }
+        terms.push_back({owner, -sum});
+        join(terms);
+        for (const FaceTerm& t : terms) out.add(t);
+      });
 }
 
 std::vector<CurvedSurface> free_surfaces(const Cells& cells, std::span<const Symmetric3> M, std::span<const Mat3> D,

@@ -46,12 +46,14 @@ struct Normal {
       const Vec3 c = (1.0 / length) * X;
       const Eigen::Vector3d linear = to_eigen(c);
       const Vector6 quadratic = products(c);
+      sum += linear;
       first += linear * linear.transpose();
       mixed += quadratic * linear.transpose();
       second += quadratic * quadratic.transpose();
     }
   }
   double length = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Matrix3d first = Matrix3d::Zero();
   Matrix63 mixed = Matrix63::Zero();
   Matrix6 second = Matrix6::Zero();
@@ -103,16 +105,18 @@ QuadraticFit packed(const Matrix63& A, const Matrix6& S, double length) {
   return fit;
 }
 
-/// Of H_a, if every position has noise of unit size, that of a too.
-double deviation(const QuadraticFit& fit, std::span<const Vec3> branches) {
-  Symmetric3 own;
-  double variance = 0.0;
-  for (const Vec3& X : branches) {
-    const Symmetric3 W = share_of(fit, X);
-    variance += contract(W, W);
-    own += W;
-  }
-  return std::sqrt(variance + contract(own, own));
+/// Of H_a, if every position has noise of unit size, that of a too. The shares W of the others in H_a have the sum of
+/// squares tr(f S f), mixed derivatives counting twice, for S is the inverse of the sum of chi' (x) chi'; that of a is
+/// the negative sum of theirs.
+double deviation(const Normal& n, const Matrix63& A, const Matrix6& S) {
+  const Matrix3d& f = n.first;
+  Vector6 all;
+  all << f(0, 0), f(0, 1), f(0, 2), f(1, 1), f(1, 2), f(2, 2);
+  Vector6 twice;  // how often a product stands in a symmetric tensor
+  twice << 1.0, 2.0, 2.0, 1.0, 2.0, 1.0;
+  const Vector6 own = factors().asDiagonal() * (S * (all - A * n.sum));
+  const Vector6 squares = factors().cwiseAbs2().cwiseProduct(S.diagonal()) + own.cwiseAbs2();
+  return std::sqrt(twice.dot(squares)) / (n.length * n.length);
 }
 
 /// Sum of the squares of the branches.
@@ -178,7 +182,7 @@ FittedQuadratic fit_quadratic(std::span<const Vec3> branches, Extent extent) {
   Matrix6 S;
   if (!solve(n, extent, A, S)) return result;
   result.fit = packed(A, S, n.length);
-  result.deviation = deviation(result.fit, branches);
+  result.deviation = deviation(n, A, S);
   return result;
 }
 
@@ -197,6 +201,21 @@ Symmetric3 share_of(const QuadraticFit& fit, const Vec3& branch) {
     }
   W.array() *= f.array();
   return {W(0), W(1), W(2), W(3), W(4), W(5)};
+}
+
+ContractedFit contracted(const QuadraticFit& fit, const Symmetric3& M) {
+  const std::array<double, 6> m{M.xx, M.xy, M.xz, M.yy, M.yz, M.zz};
+  ContractedFit result;
+  std::size_t at = 0;
+  for (std::size_t r = 0; r < 6; ++r)
+    for (std::size_t c = r; c < 6; ++c, ++at) {
+      result.of_products[r] += 2.0 * fit.S[at] * m[c];
+      if (c != r) result.of_products[c] += 2.0 * fit.S[at] * m[r];
+    }
+  for (std::size_t r = 0; r < 6; ++r)
+    for (int j = 0; j < 3; ++j)
+      result.of_branch[j] += result.of_products[r] * fit.A[3 * r + static_cast<std::size_t>(j)];
+  return result;
 }
 
 }  // namespace tessera

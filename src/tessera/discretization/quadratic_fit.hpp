@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 
@@ -28,5 +29,19 @@ FittedQuadratic fit_quadratic(std::span<const Vec3> branches, Extent extent);
 
 /// One particle's share W in H_a, by its branch.
 Symmetric3 share_of(const QuadraticFit& fit, const Vec3& branch);
+
+/// One particle's share in M : H_a, by its branch: v chi' with v = 2 S_a M, since f is 2 where a component stands once
+/// in M.
+struct ContractedFit {
+  double operator()(const Vec3& X) const {
+    const std::array<double, 6>& v = of_products;
+    return X.x * (v[0] * X.x + v[1] * X.y + v[2] * X.z) + X.y * (v[3] * X.y + v[4] * X.z) + v[5] * X.z * X.z -
+           dot(of_branch, X);
+  }
+  std::array<double, 6> of_products{};
+  Vec3 of_branch;
+};
+
+ContractedFit contracted(const QuadraticFit& fit, const Symmetric3& M);
 
 }  // namespace tessera

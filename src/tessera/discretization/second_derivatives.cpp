@@ -42,10 +42,10 @@ struct Fitted {
 class Fitter {
  public:
   Fitted fit(const Discretization& d, Index a, CellPlace place) {
-    rings_.find_near(d, a);
+    rings_.start(d, a);
     if (rings_.near() == 0) return {};
     if (place == CellPlace::inside)
-      if (const Fitted fitted = narrow(d, a); fitted.amplification <= enough) return fitted;
+      if (const Fitted fitted = narrow(d); fitted.amplification <= enough) return fitted;
     return wide(d, a, place);
   }
 
@@ -59,11 +59,12 @@ class Fitter {
 
  private:
   /// Of neighbours with a common face and the least of theirs that is enough.
-  Fitted narrow(const Discretization& d, Index a) {
+  Fitted narrow(const Discretization& d) {
     extent_ = Extent::space;
     Fitted fitted = over(0);
     if (fitted.amplification <= enough) return fitted;
-    find_far(d, a, 2);
+    rings_.widen(d, 2);
+    rings_.sort_far();
     for (std::size_t added = 1; added <= std::min(most_added, rings_.far()); ++added) {
       if (rings_.ends_within_equals(added)) continue;
       fitted = over(added);
@@ -74,22 +75,18 @@ class Fitter {
 
   /// Over many, whatever they amplify.
   Fitted wide(const Discretization& d, Index a, CellPlace place) {
-    find_far(d, a, rings);
+    rings_.widen(d, rings);
+    extent_ = extent(rings_.branches());  // of all, so that a layer of a body is no plane
     const double seen = depth(rings_.branches(), d.measure->second_moment[static_cast<std::size_t>(a)], extent_);
     const bool at_boundary = place == CellPlace::at_boundary;
-    if (at_boundary && extent_ == Extent::space) find_far(d, a, 2);
+    if (at_boundary && extent_ == Extent::space) rings_.narrow(2);
+    rings_.sort_far();
     std::size_t added = std::min(at_boundary ? widely_at_boundary : widely, rings_.far());
     while (rings_.ends_within_equals(added)) ++added;
     Fitted fitted = over(added);
     fitted.averaged = place != CellPlace::near_boundary;
     fitted.depth = std::min(seen, most_depth);
     return fitted;
-  }
-
-  /// And how far all extend, so that a layer of a body is no plane.
-  void find_far(const Discretization& d, Index a, int within) {
-    rings_.find_far(d, a, within);
-    extent_ = extent(rings_.branches());
   }
 
   /// The fit over the neighbours with a common face and as many others.
@@ -110,10 +107,24 @@ class Fitter {
   Extent extent_ = Extent::line;
 };
 
-void add_terms(const Discretization& d, Index a, std::span<const Index> particles, const QuadraticFit& fit,
-               std::vector<CurvatureTerm>& terms) {
-  for (const Index b : particles)
-    terms.push_back({b, share_of(fit, d.X[static_cast<std::size_t>(b)] - d.X[static_cast<std::size_t>(a)])});
+/// Calls body(b, X_ab) for the particles that the fit of a is over.
+template <class Body>
+void for_each_fitted(const Discretization& d, const SecondDerivatives& s, Index a, Body&& body) {
+  const Vec3& X_a = d.X[static_cast<std::size_t>(a)];
+  d.for_each_face_neighbour(a, [&](Offset, Index b) { body(b, d.X[static_cast<std::size_t>(b)] - X_a); });
+  for (const Index b : s.far.row(a)) body(b, d.X[static_cast<std::size_t>(b)] - X_a);
+}
+
+/// Calls body(b, share) for the cells in whose mean the cell's second derivatives are.
+template <class Body>
+void for_each_averaged(const Discretization& d, const SecondDerivatives& s, Index a, Body&& body) {
+  std::vector<Index> cells{a};
+  if (s.averaged[static_cast<std::size_t>(a)])
+    d.for_each_face_neighbour(a, [&](Offset, Index b) { cells.push_back(b); });
+  double sum = 0.0;
+  for (const Index b : cells) sum += s.weight[static_cast<std::size_t>(b)];
+  for (const Index b : cells)
+    if (const double share = s.weight[static_cast<std::size_t>(b)] / sum; share > 0.0) body(b, share);
 }
 
 /// Each cell's value after `take` has taken in those of its neighbours, the count-th ones.
@@ -147,17 +158,38 @@ Csr<Index> of_resolved(const Csr<Index>& far, const std::vector<char>& resolved)
   });
 }
 
-/// Adds up terms of equal particles, which become ascending.
-void join(std::vector<CurvatureTerm>& terms) {
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const CurvatureTerm& l, const CurvatureTerm& r) { return l.particle < r.particle; });
+/// Adds up the values of terms of equal particles, which become ascending, and leaves out those of a, for which
+/// branches vanish.
+template <class Term, class Value>
+void join(std::vector<Term>& terms, Value Term::*value, Index a) {
+  std::erase_if(terms, [a](const Term& t) { return t.particle == a; });
+  std::stable_sort(terms.begin(), terms.end(), [](const Term& l, const Term& r) { return l.particle < r.particle; });
   std::size_t last = 0;
   for (std::size_t i = 1; i < terms.size(); ++i)
     if (terms[i].particle == terms[last].particle)
-      terms[last].W += terms[i].W;
+      terms[last].*value += terms[i].*value;
     else
       terms[++last] = terms[i];
   terms.resize(std::min(terms.size(), last + 1));
+}
+
+/// The second derivatives that a cell uses, reduced to values by those that `share_in(fit of b)` gives for branches.
+template <class Term, class Value, class ShareIn>
+std::vector<Term> cell_terms(const Discretization& d, const SecondDerivatives& s, Index a, Value Term::*value,
+                             ShareIn&& share_in) {
+  std::vector<Term> terms;
+  if (!s.resolved[static_cast<std::size_t>(a)]) return terms;
+  for_each_averaged(d, s, a, [&](Index b, double share) {
+    const auto of = share_in(s.fit[static_cast<std::size_t>(b)]);
+    Value own{};
+    for_each_fitted(d, s, b, [&](Index c, const Vec3& X) {
+      terms.push_back({c, share * of(X)});
+      own -= terms.back().*value;
+    });
+    terms.push_back({b, own});
+  });
+  join(terms, value, a);
+  return terms;
 }
 
 }  // namespace
@@ -200,34 +232,19 @@ SecondDerivatives second_derivatives(const Discretization& d, std::span<const Ce
 std::vector<CurvatureTerm> curvature(const Discretization& d, const SecondDerivatives& s, Index a) {
   std::vector<CurvatureTerm> terms;
   const auto k = static_cast<std::size_t>(a);
-  if (!s.resolved[k]) return terms;
-  std::vector<Index> near;
-  d.for_each_face_neighbour(a, [&](Offset, Index b) { near.push_back(b); });
-  add_terms(d, a, near, s.fit[k], terms);
-  add_terms(d, a, s.far.row(a), s.fit[k], terms);
+  if (s.resolved[k])
+    for_each_fitted(d, s, a, [&](Index b, const Vec3& X) { terms.push_back({b, share_of(s.fit[k], X)}); });
   return terms;
 }
 
 std::vector<CurvatureTerm> cell_curvature(const Discretization& d, const SecondDerivatives& s, Index a) {
-  if (!s.resolved[static_cast<std::size_t>(a)]) return {};
-  std::vector<Index> cells{a};
-  if (s.averaged[static_cast<std::size_t>(a)])
-    d.for_each_face_neighbour(a, [&](Offset, Index b) { cells.push_back(b); });
-  double sum = 0.0;
-  for (const Index b : cells) sum += s.weight[static_cast<std::size_t>(b)];
-  std::vector<CurvatureTerm> terms;
-  for (const Index b : cells) {
-    const double share = s.weight[static_cast<std::size_t>(b)] / sum;
-    Symmetric3 own;
-    for (const CurvatureTerm& t : curvature(d, s, b)) {
-      terms.push_back({t.particle, share * t.W});
-      own -= share * t.W;
-    }
-    terms.push_back({b, own});
-  }
-  join(terms);
-  std::erase_if(terms, [a](const CurvatureTerm& t) { return t.particle == a; });
-  return terms;
+  return cell_terms(d, s, a, &CurvatureTerm::W,
+                    [](const QuadraticFit& fit) { return [&fit](const Vec3& X) { return share_of(fit, X); }; });
+}
+
+std::vector<MeanTerm> contracted_curvature(const Discretization& d, const SecondDerivatives& s, Index a,
+                                           const Symmetric3& M) {
+  return cell_terms(d, s, a, &MeanTerm::weight, [&M](const QuadraticFit& fit) { return contracted(fit, M); });
 }
 
 }  // namespace tessera

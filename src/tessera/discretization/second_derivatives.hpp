@@ -11,6 +11,7 @@
 namespace tessera {
 
 struct Discretization;
+struct MeanTerm;
 
 /// The second derivatives of the quadratic motion that fits the positions of a particle's neighbours best. With
 /// u_b = x_b - x_a and X X the six products of the components of X_ab, unweighted least squares give
@@ -55,5 +56,9 @@ std::vector<CurvatureTerm> curvature(const Discretization& d, const SecondDeriva
 
 /// The second derivatives that the cell uses, H_a or the mean, as a sum over particles, ascending, without a itself.
 std::vector<CurvatureTerm> cell_curvature(const Discretization& d, const SecondDerivatives& s, Index a);
+
+/// M : H of those, the sum of weight (x_b - x_a).
+std::vector<MeanTerm> contracted_curvature(const Discretization& d, const SecondDerivatives& s, Index a,
+                                           const Symmetric3& M);
 
 }  // namespace tessera
