@@ -204,8 +204,26 @@ VoronoiBody hardly_layers() { return voronoi_body(box({12, 12, 3}), {12, 12, 3},
 /// mixed derivatives in it, so cells take means away from the boundary too.
 VoronoiBody stretched(double stretch) { return voronoi_body(box({6, 6, 5 * stretch}), {6, 6, 5}, 0.0, 1, nothing); }
 
+/// Two cells have two faces in common, halves of one.
+VoronoiBody with_divided_face() {
+  VoronoiBody body = voronoi_body(box({1, 1, 1}), {5, 5, 5}, 0.2, 3, nothing);
+  Cells& cells = body.cells;
+  const auto k = std::find_if(cells.interior.begin(), cells.interior.end(),
+                              [](const InteriorFace& f) { return f.a == 62 || f.b == 62; }) -
+                 cells.interior.begin();
+  const auto face = static_cast<std::size_t>(k);
+  cells.interior[face].area = 0.5 * cells.interior[face].area;
+  cells.interior_second_moment[face] *= 0.5;
+  const InteriorFace half = cells.interior[face];
+  const Symmetric3 second_moment = cells.interior_second_moment[face];
+  cells.interior.insert(cells.interior.begin() + k, half);
+  cells.interior_second_moment.insert(cells.interior_second_moment.begin() + k, second_moment);
+  return body;
+}
+
 std::vector<VoronoiBody> bodies() {
-  return {voronoi_body(box({1, 1, 1}), {4, 4, 4}, 0.25, 9, nothing),
+  return {with_divided_face(),
+          voronoi_body(box({1, 1, 1}), {4, 4, 4}, 0.25, 9, nothing),
           voronoi_body(box({1, 1, 1}), {6, 6, 6}, 0.45, 2, nothing),
           voronoi_body(box({1, 1, 1}), {5, 6, 5}, 0.0, 1, nothing),
           stretched(2.5),
@@ -285,6 +303,14 @@ TEST(Depth, DecidesWhatIsResolved) {
   }
   EXPECT_GT(just_deep, 0);
   EXPECT_GT(just_shallow, 0);
+}
+
+/// Nor are cells with several faces in common; all others of that body are.
+TEST(SecondDerivatives, OfCellsWithADividedFaceAreNotResolved) {
+  const Discretization d = curved(with_divided_face());
+  const std::vector<char>& resolved = d.second_order->derivatives.resolved;
+  EXPECT_EQ(std::count(resolved.begin(), resolved.end(), 0), 2);
+  EXPECT_EQ(resolved[62], 0);
 }
 
 /// Depth is not all: in a stretched lattice five layers of six by six are deep, but the nearest particles are in too
