@@ -70,7 +70,7 @@ bool invert(const Matrix& m, int rank, Matrix& inverse) {
     return true;
   }
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(m);
-  const auto values = eigen.eigenvalues();
+  const auto& values = eigen.eigenvalues();
   const auto size = static_cast<int>(values.size());
   if (!(values(size - rank) > undetermined * values(size - 1))) return false;
   const auto vectors = eigen.eigenvectors().rightCols(rank);
@@ -158,7 +158,7 @@ double depth_along(std::span<const Vec3> branches, const Eigen::Vector3d& n) {
 
 Extent extent(std::span<const Vec3> branches) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(squares(branches), Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d values = eigen.eigenvalues();
+  const Eigen::Vector3d& values = eigen.eigenvalues();
   if (!(values(1) > flat_below * values(2))) return Extent::line;
   return values(0) > flat_below * values(2) ? Extent::space : Extent::plane;
 }
@@ -190,7 +190,7 @@ Symmetric3 share_of(const QuadraticFit& fit, const Vec3& branch) {
   const Vector6 p = products(branch), f = factors();
   Vector6 rest, W = Vector6::Zero();
   for (int r = 0; r < 6; ++r) {
-    const double* A = fit.A.data() + 3 * r;
+    const double* A = fit.A.data() + static_cast<std::ptrdiff_t>(3) * r;
     rest(r) = p(r) - (A[0] * branch.x + A[1] * branch.y + A[2] * branch.z);
   }
   std::size_t at = 0;

@@ -89,7 +89,7 @@ struct CellTask {
   const CellReport& report;
   const Tensor* at_centroids = nullptr;  // F there, where some F_a belong elsewhere; null: F
 
-  const Tensor* F_of_points() const { return at_centroids != nullptr ? at_centroids : F; }
+  const Tensor* gradients_at_centroids() const { return at_centroids != nullptr ? at_centroids : F; }
 };
 
 /// Adds the elastic and viscous stress of a group's cells to the scratch, and what they report.
@@ -139,7 +139,7 @@ inline StressSums cells_of(const CellTask& task, const Law& law, const Source& s
   for (Index q = 0; q < tile.quads(); q += CellGroup<Lanes>::quads) {
     const CellGroup<Lanes> group = Source::template Variation<Lanes>::group(task.s, tile, q);
     const PointStrains<Lanes> strains = variation.find(group);
-    const Lanes9Of<Lanes> F = load_F(task.F_of_points() + tile.begin, group);
+    const Lanes9Of<Lanes> F = load_F(task.gradients_at_centroids() + tile.begin, group);
     const CubatureStress<Lanes> c = point_stresses(source, task, law, group, F, strains.E);
     smallest_J = smallest_J < c.smallest_J ? smallest_J : c.smallest_J;
     not_finite += c.not_finite;
