@@ -114,22 +114,21 @@ std::vector<CellPlace> places_of(const Csr<FaceOfCell>& faces) {
   return places;
 }
 
-/// M_f of the bonds between resolved cells.
-RawField<Symmetric3> curvature_of_bonds(const Discretization& d, const Csr<FaceOfCell>& faces,
-                                        std::span<const Symmetric3> interior, const std::vector<char>& resolved) {
-  RawField<Symmetric3> M(static_cast<std::size_t>(d.bonds.size()));
+/// The faces of the bonds between resolved cells.
+RawField<Index> faces_of_bonds(const Discretization& d, const Csr<FaceOfCell>& faces,
+                               const std::vector<char>& resolved) {
+  RawField<Index> face(static_cast<std::size_t>(d.bonds.size()));
   parallel::for_each(d.particles(), [&](std::int64_t i) {
     const auto a = static_cast<Index>(i);
-    std::fill(M.begin() + d.bonds.begin(a), M.begin() + d.bonds.end(a), Symmetric3{});
+    std::fill(face.begin() + d.bonds.begin(a), face.begin() + d.bonds.end(a), -1);
     if (!resolved[static_cast<std::size_t>(a)]) return;
     Offset bond = d.bonds.begin(a);  // both rows are ascending
     for (const FaceOfCell& g : interior_faces(faces, a)) {
       while (d.bonds.neighbour[static_cast<std::size_t>(bond)] < g.neighbour) ++bond;
-      if (resolved[static_cast<std::size_t>(g.neighbour)])
-        M[static_cast<std::size_t>(bond)] = interior[static_cast<std::size_t>(g.face)];
+      if (resolved[static_cast<std::size_t>(g.neighbour)]) face[static_cast<std::size_t>(bond)] = g.face;
     }
   });
-  return M;
+  return face;
 }
 
 /// Adds up terms of the same particle.
@@ -200,7 +199,8 @@ CurvedFaces curved_faces(const Discretization& d, const Cells& cells, const Csr<
   SecondOrder& s = result.second_order;
   const std::vector<Symmetric3> boundary = boundary_curvature(d.X, cells, positions);
   s.derivatives = second_derivatives(d, places_of(faces));
-  s.M = curvature_of_bonds(d, faces, interior_curvature(d.X, cells, faces, positions), s.derivatives.resolved);
+  s.M = interior_curvature(d.X, cells, faces, positions);
+  s.face = faces_of_bonds(d, faces, s.derivatives.resolved);
   s.surfaces = free_surfaces(cells, boundary, D, s.derivatives.resolved);
   result.boundary = boundary_positions(d, cells, positions, boundary, s.derivatives);
   return result;

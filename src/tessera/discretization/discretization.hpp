@@ -118,8 +118,15 @@ struct CurvedSurface {
 /// (q_a H_a + q_b H_b) / (q_a + q_b) : M_f. What they do to boundary nodes and load shares is part of these.
 struct SecondOrder {
   SecondDerivatives derivatives;
-  RawField<Symmetric3> M;               // per bond, of its face; zero where one of the cells is not resolved [m2]
+  RawField<Symmetric3> M;               // per face between cells [m2]
+  RawField<Index> face;                 // per bond, in M; -1 without a face, or if one of the cells is not resolved
   std::vector<CurvedSurface> surfaces;  // sorted by particle
+
+  /// Of the bond's face; zero where second derivatives do not move it.
+  Symmetric3 M_of_bond(Offset bond) const {
+    const Index f = face[static_cast<std::size_t>(bond)];
+    return f < 0 ? Symmetric3{} : M[static_cast<std::size_t>(f)];
+  }
 };
 
 /// The part that F of a particle, or its stress, has in a sum.

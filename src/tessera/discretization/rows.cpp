@@ -64,6 +64,8 @@ void append_second_order(SecondOrder& all, SecondOrder more, Index shift) {
   move_to_end(all.derivatives.averaged, more.derivatives.averaged);
   move_to_end(all.derivatives.weight, more.derivatives.weight);
   move_to_end(all.derivatives.amplification, more.derivatives.amplification);
+  const auto faces = static_cast<Index>(all.M.size());
+  for (const Index f : more.face) all.face.push_back(f < 0 ? f : f + faces);
   move_to_end(all.M, more.M);
   move_to_end(all.surfaces, more.surfaces);
 }

@@ -120,7 +120,8 @@ class TileRows {
   void put_face(std::size_t bond, Index a, Index b) {
     const double sum = s_.weight[static_cast<std::size_t>(a)] + s_.weight[static_cast<std::size_t>(b)];
     const double scale = sum > 0.0 ? d_.bonds.area_over_length[bond] / sum : 0.0;
-    r_.M[static_cast<std::size_t>(next_.face++)] = factors(scale * d_.second_order->M[bond]);
+    r_.M[static_cast<std::size_t>(next_.face++)] =
+        factors(scale * d_.second_order->M_of_bond(static_cast<Offset>(bond)));
   }
 
   void put_B(Offset bond) {

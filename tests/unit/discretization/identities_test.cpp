@@ -204,5 +204,32 @@ TEST(Append, KeepsTheIdentitiesOfBothBodies) {
   }
 }
 
+/// And what second derivatives do: stencils, and the faces of bonds.
+TEST(Append, KeepsWhatSecondDerivativesDo) {
+  const Solid solid = box({1, 1, 1});
+  Discretization all = discretize(Method::consistent, solid, {4, 4, 4}, 0.25, 3, mixed, Integration::second_order);
+  const Discretization second =
+      discretize(Method::consistent, solid, {5, 4, 4}, 0.25, 4, mixed, Integration::second_order);
+  const Index particles = all.particles();
+  append(all, second);
+  int moved = 0;
+  for (Index a = 0; a < second.particles(); ++a) {
+    const std::vector<CurvatureTerm> own = cell_curvature(second, second.second_order->derivatives, a);
+    const std::vector<CurvatureTerm> now = cell_curvature(all, all.second_order->derivatives, particles + a);
+    ASSERT_EQ(now.size(), own.size());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      EXPECT_EQ(now[k].particle, own[k].particle + particles);
+      EXPECT_EQ(now[k].W, own[k].W);
+    }
+    const Offset shift = all.bonds.begin(particles + a) - second.bonds.begin(a);
+    for (Offset bond = second.bonds.begin(a); bond < second.bonds.end(a); ++bond) {
+      const Symmetric3 M = second.second_order->M_of_bond(bond);
+      EXPECT_EQ(all.second_order->M_of_bond(bond + shift), M);
+      moved += M == Symmetric3{} ? 0 : 1;
+    }
+  }
+  EXPECT_GT(moved, 0);
+}
+
 }  // namespace
 }  // namespace tessera::test

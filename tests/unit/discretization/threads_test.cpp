@@ -81,6 +81,7 @@ TEST_F(Threads, QuadraticFacesHaveTheSameBits) {
       EXPECT_EQ(mine.fit[a].A, others.fit[a].A) << a;
     }
     EXPECT_EQ(one.second_order->M, other.second_order->M);
+    EXPECT_EQ(one.second_order->face, other.second_order->face);
   }
 }
 

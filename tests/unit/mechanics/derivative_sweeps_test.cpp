@@ -92,7 +92,8 @@ class DerivativeSweeps : public testing::TestWithParam<Body> {
       add(of_face, q_a / (q_a + q_b), sum(a, curvature(d, own, a)));
       add(of_face, q_b / (q_a + q_b), sum(b, curvature(d, own, b)));
       const auto k = static_cast<std::size_t>(bond);
-      VF += outer(contracted(of_face, d.second_order->M[k]), d.bonds.area_over_length[k] * d.branch(a, bond));
+      VF +=
+          outer(contracted(of_face, d.second_order->M_of_bond(bond)), d.bonds.area_over_length[k] * d.branch(a, bond));
     });
     return VF;
   }
