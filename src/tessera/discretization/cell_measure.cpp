@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "tessera/discretization/to_eigen.hpp"
 #include "tessera/parallel/parallel.hpp"
 
 namespace tessera {
@@ -15,12 +16,6 @@ constexpr double unresolved_below = 0.04;
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d to_eigen(const Symmetric3& m) {
-  Matrix3d e;
-  e << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
-  return e;
-}
 
 Mat3 to_mat3(const Matrix3d& e) {
   Mat3 m;

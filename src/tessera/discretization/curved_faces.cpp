@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tessera/discretization/rows.hpp"
+#include "tessera/discretization/to_eigen.hpp"
 #include "tessera/discretization/voronoi_common.hpp"
 #include "tessera/parallel/collect.hpp"
 
@@ -181,10 +182,8 @@ std::vector<CurvedSurface> free_surfaces(const Cells& cells, std::span<const Sym
 }  // namespace
 
 FaceSpread face_spread(const Symmetric3& second_moment, double area) {
-  Eigen::Matrix3d m;
-  const Symmetric3& s = second_moment;
-  m << s.xx, s.xy, s.xz, s.xy, s.yy, s.yz, s.xz, s.yz, s.zz;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(m);  // the least eigenvalue is zero: along the normal
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
+      to_eigen(second_moment));  // the least eigenvalue is zero: along the normal
   const auto axis = [&](int k) {
     const Eigen::Vector3d v =
         std::sqrt(2.0 * std::max(eigen.eigenvalues()(k), 0.0) / area) * eigen.eigenvectors().col(k);

@@ -29,7 +29,7 @@ void NeighbourRings::start(const Discretization& d, Index a) {
 }
 
 void NeighbourRings::widen(const Discretization& d, int rings) {
-  narrow(1);
+  cut(1);
   seen_.resize(d.X.size());
   see(centre_);
   for (const Index b : particles_) see(b);
@@ -45,7 +45,7 @@ void NeighbourRings::widen(const Discretization& d, int rings) {
   for (const Index b : particles_) seen_[static_cast<std::size_t>(b)] = 0;
 }
 
-void NeighbourRings::narrow(int rings) {
+void NeighbourRings::cut(int rings) {
   ends_.resize(static_cast<std::size_t>(rings));
   particles_.resize(ends_.back());
   branches_.resize(ends_.back());

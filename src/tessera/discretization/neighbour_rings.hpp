@@ -16,7 +16,7 @@ class NeighbourRings {
   /// All within so many rings, in any order but that those with a common face are the first.
   void widen(const Discretization& d, int rings);
   /// Leaves out what is beyond so many of those rings.
-  void narrow(int rings);
+  void cut(int rings);
   /// Puts the far ones, which have no face in common, in order, nearest first.
   void sort_far();
 

@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "tessera/discretization/to_eigen.hpp"
 
 namespace tessera {
 
@@ -19,9 +22,6 @@ constexpr double flat_below = 1e-12;
 constexpr double undetermined = 1e-10;
 // So many directions are looked along, in the plane of the two axes across the fewest cells.
 constexpr int directions = 6;
-constexpr double pi = 3.14159265358979323846;
-
-Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Vector6 products(const Vec3& X) {
   Vector6 p;
@@ -126,12 +126,6 @@ Matrix3d squares(std::span<const Vec3> branches) {
   return K;
 }
 
-Matrix3d to_eigen(const Symmetric3& m) {
-  Matrix3d e;
-  e << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
-  return e;
-}
-
 /// Across the fewest cells first, conjugate to each other, each in units of the cell's width along it; the particle
 /// itself is one of those that are seen.
 Matrix3d axes_in_cells(std::span<const Vec3> branches, const Symmetric3& second_moment) {
@@ -168,7 +162,7 @@ double depth(std::span<const Vec3> branches, const Symmetric3& second_moment, Ex
   if (extent == Extent::plane) return depth_along(branches, axes.col(1));
   double least = depth_along(branches, axes.col(0));
   for (int k = 1; k < directions; ++k) {
-    const double angle = k * pi / directions;
+    const double angle = k * std::numbers::pi / directions;
     least = std::min(least, depth_along(branches, std::cos(angle) * axes.col(0) + std::sin(angle) * axes.col(1)));
   }
   return least;

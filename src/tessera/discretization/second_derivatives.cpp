@@ -79,7 +79,7 @@ class Fitter {
     extent_ = extent(rings_.branches());  // of all, so that a layer of a body is no plane
     const double seen = depth(rings_.branches(), d.measure->second_moment[static_cast<std::size_t>(a)], extent_);
     const bool at_boundary = place == CellPlace::at_boundary;
-    if (at_boundary && extent_ == Extent::space) rings_.narrow(2);
+    if (at_boundary && extent_ == Extent::space) rings_.cut(2);
     rings_.sort_far();
     std::size_t added = std::min(at_boundary ? widely_at_boundary : widely, rings_.far());
     while (rings_.ends_within_equals(added)) ++added;
@@ -127,7 +127,8 @@ void for_each_averaged(const Discretization& d, const SecondDerivatives& s, Inde
     if (const double share = s.weight[static_cast<std::size_t>(b)] / sum; share > 0.0) body(b, share);
 }
 
-/// Each cell's value after `take` has taken in those of its neighbours, the count-th ones.
+/// Each cell's value after take(value, other, count) has taken in those of its neighbours one by one, `other` being the
+/// count-th of all, the cell's own the first.
 template <class Take>
 std::vector<double> with_neighbours(const Discretization& d, const std::vector<double>& values, Take&& take) {
   std::vector<double> result(values.size());
@@ -173,7 +174,8 @@ void join(std::vector<Term>& terms, Value Term::*value, Index a) {
   terms.resize(std::min(terms.size(), last + 1));
 }
 
-/// The second derivatives that a cell uses, reduced to values by those that `share_in(fit of b)` gives for branches.
+/// The second derivatives that a cell uses, or a number that follows from them: share_in(fit)(X_ab) is one particle's
+/// share in those of a fit.
 template <class Term, class Value, class ShareIn>
 std::vector<Term> cell_terms(const Discretization& d, const SecondDerivatives& s, Index a, Value Term::*value,
                              ShareIn&& share_in) {
